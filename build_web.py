@@ -43,15 +43,15 @@ class UnavailableError(WebError):
     def __init__(self, reason: str) -> None:
         super().__init__(
             f"The scripts of report pages are not built, so pages are static: {reason}. "
-            "Run `make web` where npm can be reached."
+            "Run `make web` with access to npm."
         )
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", type=Path, default=BUILT / "bundles", help="folder of the bundles")
-    parser.add_argument("--tools", action="store_true", help="install what tests need, and check types")
-    parser.add_argument("--require", action="store_true", help="exit with status 1 without npm, too")
+    parser.add_argument("--tools", action="store_true", help="install the packages that tests need, and check types")
+    parser.add_argument("--require", action="store_true", help="exit with status 1 if npm is missing")
     options = parser.parse_args()
     write_types()
     try:

@@ -78,7 +78,7 @@ def _check_names(verb: Verb, given: Sequence[str]) -> None:
     try:
         here = os.getcwd()
     except OSError as error:
-        raise InputError("working folder", "", reason_of(error), "change to a folder that is there") from error
+        raise InputError("working folder", "", reason_of(error), "change to an existing folder") from error
     check_encoding("working folder", here)
 
 
@@ -118,7 +118,7 @@ def parser_of(given: Sequence[str]) -> Parser:
     """
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
-    parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit where known")
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit if known")
     named = [*given, *os.environ.get(COMPLETING, "").split()]
     is_complete = HELP_ALL in named or COMPLETING in os.environ
     seconds = {}

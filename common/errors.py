@@ -124,7 +124,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     """Return a remedy for an unknown name: the most similar known names, or all if there are few or none is similar."""
     names = sorted(set(known), key=_natural)
     if not names:
-        return "there is none to choose from here"
+        return "none is available"
     likeness = {
         other: 1.0 if name and other.startswith(name) else difflib.SequenceMatcher(None, other, name).ratio()
         for other in names

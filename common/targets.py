@@ -26,7 +26,7 @@ def check_encoding(option: str, name: str) -> None:
     try:
         name.encode()
     except UnicodeEncodeError:
-        raise InputError(option, name, "not UTF-8", "give a name, in folders with names, in UTF-8") from None
+        raise InputError(option, name, "not UTF-8", "give a path in UTF-8") from None
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
@@ -45,7 +45,7 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
         raise InputError(option, str(path), problem, f"end the name with {' or '.join(suffixes)}")
     is_device_link = os.path.islink(path) and path.absolute().parent.resolve() == DEVICES
     if is_device_link or (os.path.exists(path) and not os.path.isfile(path)):
-        raise InputError(option, str(path), "is a device, which a file would replace", "give the name of a file")
+        raise InputError(option, str(path), "is a device, not a regular file", "give the name of a file")
     _check_folder(option, path, path.parent, new_folders)
     if os.path.exists(path):
         try:
@@ -68,7 +68,7 @@ def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: 
     held = [name for name in RESULTS if os.path.exists(path / name)]
     if held and not overwrite:
         problem = f"holds results already ({', '.join(held)})"
-        raise InputError(option, str(path), problem, f"give another, or {otherwise}")
+        raise InputError(option, str(path), problem, f"give another folder, or {otherwise}")
 
 
 def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> None:
@@ -80,10 +80,10 @@ def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> No
     if not os.path.isdir(nearest):
         raise InputError(option, str(path), f"{nearest} is a file", "give another folder")
     if missing and nearest == nearest.parent:
-        remedy = f"make it first, mkdir {missing[-1]}, or leave out the leading {nearest}"
+        remedy = f"create it first (mkdir {missing[-1]}), or omit the leading {nearest}"
         raise InputError(option, str(path), f"{missing[-1]} would be a new folder in the root", remedy)
     if len(missing) > new_folders:
-        remedy = f"make it first, mkdir -p {missing[new_folders]}, or correct the path"
+        remedy = f"create it first (mkdir -p {missing[new_folders]}), or correct the path"
         raise InputError(option, str(path), f"there is no folder {missing[-1]}", remedy)
     name = "results" if path == folder else path.name
     try:

@@ -3,4 +3,4 @@
 from __future__ import annotations
 
 if __name__ == "fmus_src":  # a second copy of every class, with errors that no handler catches
-    raise ImportError("fmus_src is a room of the package perilune: import perilune.fmus_src")
+    raise ImportError("fmus_src is a subpackage of perilune: import perilune.fmus_src")

@@ -85,9 +85,9 @@ def data_problem(names: object, python_only: bool) -> str | None:
         return f"data is {names!r}; write a tuple of file names, data = ('net.npz',)"
     for name in names:
         if PureWindowsPath(name).name != name or PurePosixPath(name).name != name or name in ("", ".."):
-            return f"data names {name!r}, which is no name of a file next to the source; put it there, name it alone"
+            return f"data names {name!r}, which is not a file next to the source; put it there and give its bare name"
         if name.endswith(".py"):
-            return f"data names {name!r}, which is Python; import it, and it travels along"
+            return f"data names {name!r}, which is Python; import it, and it is packed too"
     if names and not python_only:
         remedy = "add python_only = True, or write the numbers into the class"
         return f"data {', '.join(names)}: a native FMU reads no files; {remedy}"

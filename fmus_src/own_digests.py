@@ -113,6 +113,6 @@ def _digests_in(path: Path, _time: int, size: int) -> frozenset[str]:
     damaged = [number for number, match in enumerate(matches, start=1) if match is None and lines[number - 1]]
     if damaged:
         more = f" and {len(damaged) - 1} more" if len(damaged) > 1 else ""
-        problem = f"line {damaged[0]}{more} not as sha256sum writes it: left out"
+        problem = f"line {damaged[0]}{more} not in the format of sha256sum: ignored"
         warn_once(str(path), f"{path}: {problem}; remove the file and build its FMUs again")
     return frozenset(match[1].decode() for match in matches if match is not None)

@@ -36,7 +36,7 @@ ROLES = (
     Role(INTEGRATION_STEPS[0], "State, s", "the same, instead of `internal_step`", True),
     Role(SEED, "Parameter, Integer", "a campaign sets it, with `stream`, to its own seed"),
     Role(STREAM, "Parameter, Integer", "another one for each trial and component"),
-    Role(STATUS, "Output, Integer or Enumeration", "0 is good; the worst of a flight is printed and reported"),
+    Role(STATUS, "Output, Integer or Enumeration", "0 is good; the worst of a simulation is printed and reported"),
     Role(FINISHED, "Output of the system, Boolean", "ends the simulation where it is true"),
     Role(f"{FROZEN}NAME", "Parameter", "above 0 it is what the output NAME is held at, for stability studies"),
 )

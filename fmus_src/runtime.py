@@ -96,7 +96,7 @@ class BlockInstance:
         while position < len(references):
             first = references[position]
             if first < 0:
-                raise IndexError(f"there is no value reference {first}")
+                raise IndexError(f"no value reference {first}")
             name, index = self.elements[first]
             variable = self.block.variables[name]
             end = position + variable.size
@@ -227,7 +227,7 @@ class BlockInstance:
         if abs(t - here) > POINT_TOLERANCE * h + TIME_TOLERANCE * abs(here):
             raise StepError(
                 f"the step begins at {t!r} s, and the FMU is at {here!r} s; "
-                "go on from there, or restore its state of then"
+                "continue from there, or restore the state at the step's beginning"
             )
 
     def check_end(self, t: float, h: float, stop: float) -> None:

@@ -17,7 +17,7 @@ HERE = Path(__file__).parent
 
 if not (HERE / "analysis").is_dir():
     raise ImportError(
-        f"{HERE / 'analysis'} is a file where a link is meant: this checkout has no symbolic links; "
+        f"{HERE / 'analysis'} is a file, not a symbolic link: this checkout has no symbolic links; "
         "run `git config core.symlinks true` and `git checkout -- perilune`, or pip install a wheel"
     )
 

@@ -57,11 +57,13 @@ def main(arguments: list[str] | None = None) -> int:
     """Release, and print the archives and the tag; one line and status 2 where something is not as a release needs."""
     parser = argparse.ArgumentParser(prog="python -m release", description=__doc__.partition("\n")[0])
     today = datetime.now(UTC).date()
-    parser.add_argument("--date", type=date.fromisoformat, default=today, help="of the release; today, UTC")
     parser.add_argument(
-        "--output", type=Path, default=ROOT / "build" / "release", help="folder, which is emptied first"
+        "--date", type=date.fromisoformat, default=today, help="date of the release; default: today, UTC"
     )
-    parser.add_argument("--root", type=Path, default=ROOT, help="of the checkout")
+    parser.add_argument(
+        "--output", type=Path, default=ROOT / "build" / "release", help="folder of the archives, emptied first"
+    )
+    parser.add_argument("--root", type=Path, default=ROOT, help="root of the checkout")
     options = parser.parse_args(arguments)
     try:
         release = read_release(options.root, options.date)

@@ -42,7 +42,7 @@ def require_same_bytes(first: Path, second: Path) -> None:
     members, others = _members(first), _members(second)
     names = [name for name in sorted({*members, *others}) if members.get(name) != others.get(name)]
     element = names[0] if names else "dates, modes or order of its members"
-    raise InputError(str(first), element, f"not as in {second}", "find what the build depends on")
+    raise InputError(str(first), element, f"not as in {second}", "find the cause of the difference")
 
 
 def check_wheel(wheel: Path, release: Release) -> None:
@@ -67,7 +67,7 @@ def check_page(description: str) -> None:
     for element in html.fromstring(page).iter("a", "img"):
         target = element.get("href") or element.get("src") or ""
         if not target.startswith(("https://", "http://", "#")):
-            raise InputError("README.md", target, "leads nowhere on a package index", "see index_page in setup.py")
+            raise InputError("README.md", target, "is a dead link on a package index", "see index_page in setup.py")
 
 
 def _run(arguments: list[str], tree: Path, release: Release) -> None:

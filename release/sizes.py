@@ -76,7 +76,9 @@ def main() -> None:
     """Measure, store and print."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     default = ROOT / "build" / "wheel" / f"perilune-{version('perilune')}-py3-none-any.whl"
-    parser.add_argument("wheel", nargs="?", type=Path, default=default, help="that of `make wheel`")
+    parser.add_argument(
+        "wheel", nargs="?", type=Path, default=default, help="wheel to measure; default: that of `make wheel`"
+    )
     sizes = measure(parser.parse_args().wheel.resolve())
     STORED.write_text(json.dumps(sizes, indent=1) + "\n", encoding="utf-8")
     print(json.dumps(sizes, indent=1))

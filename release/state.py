@@ -49,12 +49,14 @@ def read_release(root: Path, day: date) -> Release:
     release = Release(project["version"], day)
     if not project.get("urls"):
         remedy = 'write the address of the sources, such as Repository = "https://..."'
-        raise InputError("pyproject.toml", "[project.urls]", "missing; a package index would not lead here", remedy)
+        raise InputError(
+            "pyproject.toml", "[project.urls]", "missing; a package index would not link to the sources", remedy
+        )
     _check_headings(release, (root / "CHANGELOG.md").read_text(encoding="utf-8"))
     if f"\nversion: {release.version}\n" not in (root / "CITATION.cff").read_text(encoding="utf-8"):
         raise InputError("CITATION.cff", "version", f"not {release.version} as in pyproject.toml", "write it there too")
     if git(root, "status", "--porcelain"):
-        raise InputError(str(root), "git status", "the tree is dirty", "commit or stash what is changed")
+        raise InputError(str(root), "git status", "the tree is dirty", "commit or stash the changes")
     if git(root, "tag", "--list", release.tag):
         remedy = "raise the version in pyproject.toml and CITATION.cff"
         raise InputError("pyproject.toml", "version", f"the tag {release.tag} exists", remedy)
@@ -65,10 +67,12 @@ def _check_headings(release: Release, changelog: str) -> None:
     headings = HEADING.findall(changelog)
     if not headings or headings[0] != UNRELEASED:
         first = f"## {headings[0]}" if headings else "nothing"
-        raise InputError("CHANGELOG.md", first, f"where ## {UNRELEASED} is to be", "write what has changed below that")
+        raise InputError(
+            "CHANGELOG.md", first, f"stands in the place of ## {UNRELEASED}", f"list the changes below ## {UNRELEASED}"
+        )
     sections = HEADING.split(changelog)[1:]
     if not sections[1].strip():
-        raise InputError("CHANGELOG.md", f"## {UNRELEASED}", "empty", "write what has changed")
+        raise InputError("CHANGELOG.md", f"## {UNRELEASED}", "empty", "list the changes")
     if release.version in {each.partition(" ")[0] for each in headings}:
         remedy = "raise the version in pyproject.toml and CITATION.cff"
         raise InputError("CHANGELOG.md", f"## {release.version}", "released before", remedy)
@@ -90,5 +94,5 @@ def written_files(release: Release, root: Path) -> dict[Path, str]:
         text = (root / name).read_text(encoding="utf-8")
         texts[root / name], count = re.subn(pattern, replacement, text, count=1, flags=re.MULTILINE)
         if count != 1:
-            raise InputError(name, pattern, "not there to be replaced", "write it as the last release did")
+            raise InputError(name, pattern, "not found", "write it as the last release did")
     return texts

@@ -86,7 +86,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     for reason, tests, missing, remedy in (
         (NO_BROWSER, "of the HTML pages", "chromium", "Install it (Debian: `make browser` as root)"),
         (NO_QEMU, "of the C on aarch64", "qemu-aarch64", "Install it (Debian: `make emulator` as root)"),
-        (NO_SCRIPTS, "of the scripts of pages", "bundle of them", "Run `make web` where npm can be reached"),
+        (NO_SCRIPTS, "of the scripts of pages", "bundle of them", "Run `make web` with access to npm"),
     ):
         if count := sum(reason in each for each in skipped):
             terminalreporter.write_line(

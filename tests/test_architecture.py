@@ -129,6 +129,4 @@ def test_a_room_is_no_package_of_its_own(room):
         [sys.executable, "-c", f"import {room}"], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == (
-        f"ImportError: {room} is a room of the package perilune: import perilune.{room}"
-    )
+    assert done.stderr.splitlines()[-1] == (f"ImportError: {room} is a subpackage of perilune: import perilune.{room}")

@@ -39,7 +39,7 @@ def block_slots() -> list[str]:
 def new_block(name: str, slot: str | None) -> CreatedFiles:
     """Write ``name``.py into the working folder, from the template of ``slot`` if stated. Raises InputError."""
     if slot is not None and slot not in block_slots():
-        problem = "there is no block to start from for it" if slot in slots() else "no such slot"
+        problem = "no block template exists for this slot" if slot in slots() else "no such slot"
         raise InputError("`slot`", slot, problem, suggestion(slot, block_slots()))
     check_name(name, (name,))
     path = Path(f"{name}.py")
@@ -65,7 +65,9 @@ def where_it_flies(slot: str) -> tuple[str, str]:
             if block is not None and issubclass(block, interface):
                 candidates.append((len(elements), name, element.name))
     if not candidates:
-        raise InputError("`slot`", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
+        raise InputError(
+            "`slot`", slot, f"no {DESCRIPTION} of a system declares this slot", suggestion(slot, block_slots())
+        )
     _, system, component = min(candidates)
     return system, component
 

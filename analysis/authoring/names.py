@@ -25,11 +25,11 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
     ``fmus`` are the names of the FMUs that will be built.
     """
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z][a-z0-9]*)*", name) or keyword.iskeyword(name):
-        problem = "not a name that a file, a class and an FMU can share"
-        remedy = "small letters, digits and single underscores, a letter first and behind each of them"
+        problem = "not a valid name of a file, a class and an FMU"
+        remedy = "use lower-case letters, digits and single underscores, a letter first and after each underscore"
         raise InputError("new", name, problem, f"{remedy}, as {_suggest_name(name)}")
     if name == "perilune" or name in sys.stdlib_module_names:
-        raise InputError("new", name, f"Python's own {name} would be hidden by it", f"take another, as my_{name}")
+        raise InputError("new", name, f"hides Python's {name}", f"take another, as my_{name}")
     if name in system_names():
         raise InputError("new", name, "is a system of this repository", f"take another, as my_{name}")
     for fmu in fmus:
@@ -51,4 +51,4 @@ def _suggest_name(name: str) -> str:
 def check_free(path: Path) -> None:
     """Reject the path of an existing file or folder. Raises InputError."""
     if path.exists() or path.is_symlink():
-        raise InputError("new", str(path), "exists already and is not written over", "take another name, or move it")
+        raise InputError("new", str(path), "exists already and is not overwritten", "take another name, or move it")

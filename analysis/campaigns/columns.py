@@ -20,16 +20,16 @@ class Column(NamedTuple):
 
 Describe = Callable[[str], Column]
 FLIGHT = {
-    "variant": Column(None, "which FMUs fly in the compared slots"),
-    "trial": Column("1", "number of the trial: its draws, the same in every variant"),
-    "status": Column(None, "how the flight ended, and the worst status that components had"),
-    "message": Column(None, "why the flight failed; empty where it did not"),
+    "variant": Column(None, "FMUs in the compared slots"),
+    "trial": Column("1", "number of the trial, which has the same samples in every variant"),
+    "status": Column(None, "status of the simulation, and the worst status of its components"),
+    "message": Column(None, "why the simulation failed; empty if it did not"),
     "end_time": Column("s", "time of the last row"),
 }
 FAULT = {
-    ".value": Column(None, "with what value it flew; nan where it did not"),
-    ".start": Column("s", "from when on it acted; nan where it did not fly"),
-    ".end": Column("s", "until when it acted; inf where there was no end, nan where it did not fly"),
+    ".value": Column(None, "value in the trial; nan where the fault is absent"),
+    ".start": Column("s", "start time; nan where the fault is absent"),
+    ".end": Column("s", "end time; inf without an end, nan where the fault is absent"),
 }
 
 
@@ -48,12 +48,12 @@ def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
     if kind == "fault":
         end = next((end for end in FAULT if remainder.endswith(end)), None)
         if end is None:
-            return Column("1", f"whether the fault {remainder} flew")
+            return Column("1", f"1 in trials with the fault {remainder}, else 0")
         return Column(FAULT[end].unit, f"fault {remainder.removesuffix(end)}: {FAULT[end].meaning}")
     component = stream_component(remainder)
     if component is not None:
-        whose = f"random stream {component}" if component else "random streams it"
-        return Column("1", f"number of the trial whose {whose} flew with")
+        whose = f"random stream {component}" if component else "random streams"
+        return Column("1", f"number of the trial whose {whose} this trial uses")
     swept = provenance.get("sweep", {}).get(remainder)
     return Column(None, f"drawn or derived: {remainder}" if swept is None else f"swept: {remainder}, {swept}")
 

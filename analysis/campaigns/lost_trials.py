@@ -33,7 +33,7 @@ def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
     """Return a line for each variant with such trials, from the counts of its statuses."""
     words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
     return [
-        f"{variant}: {text} of {sum(statuses[variant].values())} trials, which are no successes"
+        f"{variant}: {text} of {sum(statuses[variant].values())} trials, counted as failures"
         for variant, text in words.items()
         if text
     ]

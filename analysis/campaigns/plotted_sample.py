@@ -38,7 +38,7 @@ class PlottedSample:
             return ""
         seen = int(np.count_nonzero(~self.dots.success))
         failures = "all failures" if seen == self.failures else f"{seen} of {self.failures} failures"
-        return f"the first {FIRST} of {self.trials} trials; those over two values {failures}, too"
+        return f"the first {FIRST} of {self.trials} trials; scatter plots also show {failures}"
 
 
 def select_trials(rows: TrialTable, draws: list[str], metrics: list[str]) -> PlottedSample:

@@ -19,7 +19,7 @@ from .document import fmu_source, set_source
 from .source import ANNOTATIONS_FILE, SystemSource, read_source
 from .text import write_toml
 
-OTHERWISE = "and is not written over"
+OTHERWISE = "and is not overwritten"
 MARK = re.compile(
     rb"<!-- Written by perilune compose from [^\n]*, SHA-256 (?P<source>[0-9a-f]{64}): change that file\."
     rb" SHA-256 of what follows: (?P<rest>[0-9a-f]{64}) -->\n"
@@ -42,11 +42,11 @@ def check_unedited(path: Path, option: str = "") -> None:
     content = read_input(path, "move it away", XML_BYTES)
     match = MARK.search(content)
     if match is None:
-        remedy = f"move it away; perilune compose {path.parent} --output FILE.toml writes what it says as a system.toml"
+        remedy = f"move it away; perilune compose {path.parent} --output FILE.toml writes it as a system.toml"
         raise InputError(path, option, f"was not written by perilune compose, {OTHERWISE}", remedy)
     if hashlib.sha256(content[match.end() :]).hexdigest().encode() != match["rest"]:
         problem = f"was edited since perilune compose wrote it, {OTHERWISE}"
-        raise InputError(path, option, problem, "bring the change into the system.toml and move the file away")
+        raise InputError(path, option, problem, "make the change in the system.toml and move the file away")
 
 
 def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
@@ -78,7 +78,7 @@ def report_changed_source(system: str | Path) -> list[str]:
     if hashlib.sha256(raw).hexdigest().encode() == match["source"]:
         return []
     path = os.path.relpath(file) if file.is_relative_to(Path.cwd()) else str(file)
-    return [f"{path}: has changed since {archive.description} was composed of it; perilune compose {path}"]
+    return [f"{path}: has changed since {archive.description} was composed from it; perilune compose {path}"]
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:

@@ -162,7 +162,9 @@ def _components(table: TomlTable, lines: _Lines) -> Iterator[tuple[str, Componen
     for name, stated in table.content.items():
         where = lines.of_key(f"components.{name}")
         if not COMPONENT_NAME.fullmatch(name):
-            raise table.error(name, "not a name of a component", "write it without dots, commas, brackets and spaces")
+            raise table.error(
+                name, "not a name of a component", "write a name without dots, commas, brackets and spaces"
+            )
         if isinstance(stated, dict):
             entry = table.table(name)
             entry.only(("fmu", "parameters", "step"))
@@ -177,7 +179,7 @@ def _connectors(table: TomlTable) -> dict[str, str]:
     for kind in KINDS:
         for name in _list(table, kind):
             if name in kinds:
-                raise table.error(kind, f"{name} is {kinds[name]}, too", "name it under one of both")
+                raise table.error(kind, f"{name} is {kinds[name]}, too", "name it under only one of them")
             kinds[name] = kind
     return kinds
 
@@ -199,7 +201,7 @@ def _units(table: TomlTable) -> Iterator[tuple[str, Unit]]:
         exponents = tuple(entry.get(base, integer, 0) for base in BASE_UNITS)
         unit = Unit(name, exponents, entry.get("factor", number, 1.0), entry.get("offset", number, 0.0))
         if not unit.factor:
-            raise entry.error("factor", "0 converts nothing", "give another number")
+            raise entry.error("factor", "a factor of 0 cannot convert values", "give another number")
         yield name, unit
 
 

@@ -87,7 +87,9 @@ def _flatten(
         return setting  # type: ignore[return-value]
     shape = next(iter(shapes.values()), ())
     if len(shape) != 2 or [len(row) for row in rows] != [shape[1]] * shape[0] or len(rows) != len(setting):
-        problem = f"not {shape[0]} rows of {shape[1]}" if len(shape) == 2 else "rows, for what is no matrix"
+        problem = (
+            f"not {shape[0]} rows of {shape[1]}" if len(shape) == 2 else "rows given, but the parameter is not a matrix"
+        )
         raise source.problem(f"set.{name}", problem, "give one number for each element, row by row")
     return [each for row in rows for each in row]
 

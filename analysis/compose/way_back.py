@@ -23,7 +23,7 @@ from .values import read_values
 from .wiring import ARROW, INDEX, Point, wire
 
 ANNOTATIONS = re.compile(rb"<ssd:Annotations>(.*)</ssd:Annotations>\s*</ssd:SystemStructureDescription>\s*$", re.DOTALL)
-KEEP = "keep the SSD, which flies as it is"
+KEEP = "keep the SSD, which can be simulated as it is"
 
 
 def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSource:
@@ -65,7 +65,7 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
     source = replace(source, units=underived_units(source, wiring, description.units))
     difference = find_difference(ssd, write_document(source, fmus, wiring))
     if difference is not None:
-        raise InputError(description.file, difference, "has no place in a system.toml", KEEP)
+        raise InputError(description.file, difference, "cannot be expressed in a system.toml", KEEP)
     return source
 
 
@@ -77,7 +77,9 @@ def _components(description: SystemDescription) -> Iterator[tuple[str, Component
     for name, element in description.system.elements.items():
         if not isinstance(element, Component):
             where = f"{name} (line {element.line})"
-            raise InputError(description.file, where, "is no component, and has no place in a system.toml", KEEP)
+            raise InputError(
+                description.file, where, "is not a component and cannot be expressed in a system.toml", KEEP
+            )
         stem = element.source.removeprefix(RESOURCES).removesuffix(".fmu")
         fmu = stem if fmu_source(stem) == element.source and "/" not in stem else element.source
         yield name, ComponentSource(fmu, _parameters(description, element), element.step)
@@ -89,7 +91,7 @@ def _parameters(description: SystemDescription, element: Element) -> tuple[str, 
     for binding in element.bindings:
         if binding.source is None or _is_adapted(binding):
             where = f"ParameterBinding (line {binding.line})"
-            problem = "with values inside, a prefix or a mapping has no place in a system.toml"
+            problem = "with values inside, a prefix or a mapping cannot be expressed in a system.toml"
             raise InputError(description.file, where, problem, KEEP)
         name = binding.source.removeprefix(RESOURCES)
         names.append(name if set_source(name) == binding.source else binding.source)

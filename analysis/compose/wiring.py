@@ -110,7 +110,7 @@ class _Wirer:
             first = name.partition(".")[0]
             self.refuse(entry, f"no component {first}", suggestion(first, self.fmus))
         else:
-            problem = f"the system has no connector {name}, which [system] would declare"
+            problem = f"the system has no connector {name}: [system] does not declare it"
             self.refuse(entry, problem, suggestion(name, [*self.source.connectors, *self.fmus]))
         return None
 
@@ -131,7 +131,7 @@ class _Wirer:
     def join(self, source: End, target: End, entry: ListEntry) -> bool:
         """Connect two sides element by element; False after recording a problem."""
         if not source.component and not target.component:
-            self.refuse(entry, "both are connectors of the system", "connect it with a component")
+            self.refuse(entry, "both ends are connectors of the system", "connect a connector of a component")
             return False
         if not source.component:
             source = self.like(source, target)
@@ -173,7 +173,7 @@ class _Wirer:
             return False
         if target in self.wiring.sources:
             first = ".".join(filter(None, self.wiring.sources[target]))
-            self.refuse(entry, f"{names[1]} is driven twice, first by {first}", "remove one of both")
+            self.refuse(entry, f"{names[1]} is driven twice, first by {first}", "remove one of the two")
             return False
         self.wiring.sources[target] = source
         self.wiring.connectors |= {source: start, target: end}
@@ -201,12 +201,12 @@ class _Wirer:
         if end is None:
             return []
         if not end.component:
-            self.refuse(entry, "a connector of the system", "name one of a component, COMPONENT.NAME")
+            self.refuse(entry, "a connector of the system", "name a component's connector, COMPONENT.NAME")
             return []
         points = [(end.component, name) for name in end.names]
         remaining = [each for each in points if each not in self.wiring.connectors]
         if not remaining:
-            self.refuse(entry, "is connected", "leave it out here")
+            self.refuse(entry, "is connected", "remove it from this list")
         return remaining
 
     def declare(self, entry: ListEntry) -> None:
@@ -270,7 +270,7 @@ class _Wirer:
         written = {INDEX.sub("", name) for component, name in self.written if not component}
         for name, kind in self.source.connectors.items():
             if INDEX.sub("", name) not in present | written:
-                problem = "nothing is connected to it, so that it has no type and no unit"
+                problem = "nothing is connected to it, so its type and unit are unknown"
                 self.problems.append(self.source.problem(f"system.{kind}: {name}", problem, "connect it, or remove it"))
 
 

@@ -73,9 +73,9 @@ def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str)
     for related in manifest.files:
         if related.role == "result" and related.name not in used:
             if related.name is None:
-                notes.append(f"{related.source}: no file of the archive: not compared")
+                notes.append(f"{related.source}: not a file of the archive: not compared")
             elif related.type != CSV:
-                notes.append(f"{related.source}: {related.type} is not read, text/csv is: not compared")
+                notes.append(f"{related.source}: {related.type} is not supported, only text/csv: not compared")
             else:
                 experiments.append(PlannedExperiment("default experiment", None, None, None, related.name))
     return Plan(tuple(experiments), tuple(notes))
@@ -105,10 +105,10 @@ def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment |
         child = element.find(tag)
         source = None if child is None else child.get("source")
         if child is not None and child.get("type", expected) != expected:
-            return f"{name}: {tag} of type {child.get('type')} are not read, {expected} is: not simulated"
+            return f"{name}: {tag} of type {child.get('type')} are not supported, only {expected}: not simulated"
         sources[tag] = None if source is None else file_of(source, posixpath.dirname(file))
         if source is not None and sources[tag] is None:
-            return f"{name}: {source} is no file of the archive: not simulated"
+            return f"{name}: {source} is not a file of the archive: not simulated"
     if sources["References"] is None:
         return f"{name}: without References: nothing to compare"
     transient = element.find(TRANSIENT)

@@ -76,9 +76,11 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
             if element.get(required) is None:
                 flaws.append(f"{line}: no attribute {required}")
         if not ROLES.fullmatch(element.get("role", "other")):
-            flaws.append(f"{line}: role {element.get('role')!r} is none of the standard")
+            flaws.append(f"{line}: role {element.get('role')!r} is not defined by the standard")
         if element.get("checksumType", CHECKSUM) not in ALGORITHMS:
-            flaws.append(f"{line}: checksumType {element.get('checksumType')!r} is none of the standard: not checked")
+            flaws.append(
+                f"{line}: checksumType {element.get('checksumType')!r} is not defined by the standard: not checked"
+            )
         related.append(_read_related(element))
     return Manifest(root, tuple(related), tuple(dict.fromkeys(flaws)))
 

@@ -25,12 +25,14 @@ def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], 
             continue
         digest, separator, name = line[:LENGTH], line[LENGTH : LENGTH + 2], line[LENGTH + 2 :].removesuffix("\r")
         if separator not in SEPARATORS or not name or not set(digest) <= set("0123456789abcdef"):
-            raise InputError(f"{label}!{SUMS}", f"line {number}", "not as sha256sum writes it", "export the file again")
+            raise InputError(
+                f"{label}!{SUMS}", f"line {number}", "not in the format of sha256sum", "export the file again"
+            )
         listed[name] = digest
     problems = {}
     for name, digest in listed.items():
         if name not in files:
             problems[name] = "missing, though SHA256SUMS lists it"
         elif hashlib.sha256(files[name]).hexdigest() != digest:
-            problems[name] = "changed: its SHA-256 is not that of SHA256SUMS"
+            problems[name] = "changed: its SHA-256 differs from that in SHA256SUMS"
     return problems, [name for name in files if name not in listed and name not in NOT_LISTED]

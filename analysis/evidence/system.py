@@ -63,7 +63,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
         with chdir(Path.cwd()), open_simulation(prepared) as simulation:
             flight = fly(simulation)
     except InputError as error:
-        warnings.warn(f"no trajectory inside: {error.text}", stacklevel=5)
+        warnings.warn(f"no trajectory included: {error.text}", stacklevel=5)
     else:
         if flight.complete:
             files[TRAJECTORY] = _table(flight, prepared)
@@ -72,7 +72,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
             related.append(Related(TRAJECTORY, "result", CSV, what))
             related.append(Related(EXPERIMENT, "experiment/validation", EXPERIMENTS, "how to reproduce the trajectory"))
         else:
-            warnings.warn(f"no trajectory inside: {flight.ending}: {flight.message}", stacklevel=5)
+            warnings.warn(f"no trajectory included: {flight.ending}: {flight.message}", stacklevel=5)
     for name in studies:
         report = f"{FOLDER}/reports/{name}.json"
         files[report] = make_report(packed, name, SystemOptions())
@@ -92,7 +92,7 @@ def _list_related(files: dict[str, bytes]) -> list[Related]:
             role = "experiment/uncertainty-analysis"
             related.append(Related(name, role, mime_type(name), f"campaign {stem}"))
         elif name.startswith("documentation/"):
-            related.append(Related(name, "document", mime_type(name), "what the system is"))
+            related.append(Related(name, "document", mime_type(name), "description of the system"))
     return related
 
 

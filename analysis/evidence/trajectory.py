@@ -34,7 +34,7 @@ class Trajectory:
         """
         for name in self.texts:
             if name not in without:
-                raise InputError(self.file, f"column {name}", "not numbers, as an input has them", "write numbers")
+                raise InputError(self.file, f"column {name}", "not numbers, as an input needs", "write numbers")
         columns = {name: samples for name, samples in self.signals.items() if name not in without}
         return InputSeries(self.file, self.sha256, self.time, columns)
 

@@ -86,7 +86,7 @@ def _repeat_studies(
         if related.study is None or related.name is None or related.name not in files:
             continue
         if related.study not in known_studies(archive):
-            problems.append(f"{related.name}: reports {related.study}, which is no study of the archive")
+            problems.append(f"{related.name}: reports {related.study}, which is not a study of the archive")
             continue
         where = f"{archive.label}!{related.name}"
         differences = compare_report(files[related.name], archive.path, related.study, options, where, timeout)

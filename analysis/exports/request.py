@@ -36,7 +36,7 @@ class ExportRequest:
         for platform in self.platforms:
             if PLATFORMS[platform].fmi != self.fmi:
                 remedy = f"for FMI {self.fmi}.0 give {', '.join(platforms_of(self.fmi))}"
-                raise InputError("`platforms`", platform, f"a name of FMI {PLATFORMS[platform].fmi}.0", remedy)
+                raise InputError("`platforms`", platform, f"a platform of FMI {PLATFORMS[platform].fmi}.0", remedy)
         check_file("`output`", self.output)
 
     def check_one_fmu(self) -> None:
@@ -44,10 +44,10 @@ class ExportRequest:
         for option, given in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
             if given:
                 value = str(getattr(self, option))
-                problem = "a system as one FMU is of native FMUs, and of FMI 2.0"
+                problem = "a system as one FMU needs native FMUs, and is an FMU of FMI 2.0"
                 raise InputError(f"`{option}`", value, problem, "leave it out, or leave out `as_fmu`")
         if self.studies:
-            problem = "a system as one FMU has no reports inside"
+            problem = "a system as one FMU cannot contain reports"
             raise InputError("`studies`", self.studies[0], problem, "leave it out, or leave out `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:

@@ -47,7 +47,9 @@ def export_system(
                     shutil.copyfile(own, target)
                 else:
                     element = f"{component.get('name')} (line {component.sourceline})"
-                    problem = f"no {source} in the system, no FMU of this repository, no {' or '.join(map(str, paths))}"
+                    problem = (
+                        f"no {source} in the system, no such FMU in this repository, no {' or '.join(map(str, paths))}"
+                    )
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")

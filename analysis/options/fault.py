@@ -61,7 +61,7 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
     """
     match = WRITTEN.fullmatch(text.strip())
     if match is None:
-        raise InputError(option, text, f"not of the form {FORM}", "write it so")
+        raise InputError(option, text, f"not of the form {FORM}", "use this form")
     name, kind = match["name"].strip(), match["kind"].strip()
     if kind == "freeze" and match["value"] is not None:
         raise InputError(option, text, "a freeze has no value", "omit it: a freeze holds the current value")

@@ -65,7 +65,7 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
         name, equals, argument = text.partition("=")
         if not equals or not name.strip() or not argument.strip():
             form = declared.option.metavar or declared.option.form
-            raise InputError(f"`{declared.name}`", text, f"not of the form {form}", "write it so")
+            raise InputError(f"`{declared.name}`", text, f"not of the form {form}", "use this form")
         if name.strip() in pairs:
             raise InputError(f"`{declared.name}`", text, f"{name.strip()} is given twice", "give it once")
         if declared.element is Kind.NUMBER:

@@ -137,7 +137,7 @@ def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
     """
     campaign = OpenCampaign(read_folder(folder), is_stopped)
     if campaign.rows > ROW_LIMIT:
-        problem = f"{campaign.rows} trials of all variants; {ROW_LIMIT} can be shown"
+        problem = f"{campaign.rows} trials of all variants; at most {ROW_LIMIT} can be shown"
         raise InputError(
             folder, "", problem, "query its parquet files; `perilune docs` says how under Querying results"
         )

@@ -52,9 +52,9 @@ class Guard:
         """Return the response that refuses a request; None if the application may answer it."""
         headers = Headers(scope=scope)
         if headers.getlist("host") != [self.authority]:
-            return PlainTextResponse(f"only http://{self.authority}/ is answered, no other name of this machine", 421)
+            return PlainTextResponse(f"use http://{self.authority}/: other names of this machine are refused", 421)
         if headers.getlist("origin") not in ([], [f"http://{self.authority}"]):
-            return PlainTextResponse("requests of pages from elsewhere are refused", 403)
+            return PlainTextResponse("requests from pages of other sites are refused", 403)
         if len(scope["path"]) > LONGEST_PATH:
             return PlainTextResponse("the path is too long", 414)
         if scope["method"] not in METHODS:

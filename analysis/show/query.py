@@ -35,7 +35,7 @@ class Query(msgspec.Struct, forbid_unknown_fields=True):
 
 def read_query(text: str, columns: int, variants: int) -> Query:
     """Read a query about a campaign with these numbers of columns and variants. Raises InputError."""
-    remedy = "load the page again"
+    remedy = "reload the page"
     if len(text) > LONGEST:
         raise InputError("query", "", f"{len(text)} characters, at most {LONGEST} are read", remedy)
     try:

@@ -81,7 +81,7 @@ def _dispersion(
         range(len(items)), key=lambda place: (items[place].size(MarginQuantity.DISK), -(items[place].largest or 0.0))
     )
     unstable = sum(item.unstable for item in items)
-    note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
+    note = f"{unstable} of {len(items)} trials unstable; replay the worst: {replay(worst)}" if unstable else ""
     fraction = MarginRequirement(
         Scope.DISPERSED, MarginQuantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note
     )

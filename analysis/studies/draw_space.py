@@ -112,10 +112,12 @@ class DrawSpace:
                 raise InputError("`hold`", given[0], f"is drawn together with {lacking}", "hold all of them or none")
             if values and self.held[draw.name] not in values:
                 known = ", ".join(f"{value:g}" for value in values)
-                raise InputError("`hold`", draw.name, f"{self.held[draw.name]:g} is none of its values", f"use {known}")
+                raise InputError(
+                    "`hold`", draw.name, f"{self.held[draw.name]:g} is not one of its values", f"use {known}"
+                )
             return None
         if isinstance(distribution, Continuous):
             return draw.names, distribution
-        problem = f"a {distribution.keyword} has single values, and this study goes between them"
+        problem = f"a {distribution.keyword} has discrete values, but this study needs a continuous draw"
         remedy = f"hold it: `hold` {draw.name}={values[0]:g}, or another value"
         raise InputError(self.campaign.file, f"draw.{draw.name}", problem, remedy)

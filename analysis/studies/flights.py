@@ -39,7 +39,7 @@ class SampleFlights:
     ) -> None:
         variants = plan.campaign.variants()
         if len(variants) != 1:
-            problem = f"the campaign has {len(variants)} variants, and a study is of one"
+            problem = f"the campaign has {len(variants)} variants, but a study needs one"
             raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {variants[0].name}")
         self._count = worker_count(workers)
         self.plan = plan_of_samples(plan, first)

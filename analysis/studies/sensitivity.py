@@ -45,7 +45,7 @@ def sensitivity(
     space = DrawSpace(plan.campaign, hold)
     if not space.independent:
         draw = next(draw for draw in plan.campaign.draws if len(draw.names) > 1 and draw.names[0] in space.names)
-        problem = "jointly normal values have no indices of their own"
+        problem = "jointly normal values have no separate indices"
         held = " ".join(f"`hold` {name}=VALUE" for name in draw.names)
         raise InputError(plan.campaign.file, f"draw.{draw.name}", problem, f"hold them: {held}")
     random = np.random.Generator(np.random.Philox(np.random.SeedSequence(plan.campaign.seed)))

@@ -78,7 +78,7 @@ class BatchResult(Documented, results.CampaignResult):
     def write_task(self, path: FilePath) -> None:
         """Write the simulation task of `perilune batch --trace`. Raises InputError without ``output``."""
         if self.folder is None:
-            raise InputError("`trace`", str(path), "the batch has no folder, whose files it describes", "give `output`")
+            raise InputError("`trace`", str(path), "the batch has no folder with files to describe", "give `output`")
         write_task(self, Path(path))
 
     def plot(self, *metrics: str) -> Plot:
@@ -111,11 +111,16 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
     """
     folder = None if options["output"] is None else Path(options["output"])
     if options["resume"] and folder is None:
-        raise InputError("`resume`", "", "there is no folder to resume in", "give `output`")
+        raise InputError("`resume`", "", "no folder to resume", "give `output`")
     if options["resume"] and options["overwrite"]:
-        raise InputError("`resume`", "`overwrite`", "one keeps what is stored, one does not", "leave one of them out")
+        raise InputError(
+            "`resume`",
+            "`overwrite`",
+            "one keeps the stored results, the other overwrites them",
+            "leave one of them out",
+        )
     if options["retry_crashed"] and not options["resume"]:
-        raise InputError("`retry_crashed`", "", "there are no trials to simulate again", "give `resume`")
+        raise InputError("`retry_crashed`", "", "no stored trials to simulate again", "give `resume`")
     is_kept = options["overwrite"] or options["resume"]
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     plan = read_campaign(system, campaign, options)

@@ -91,7 +91,7 @@ def _find_lookup(plan: BatchPlan) -> Lookup:
     for lookup in plan.campaign.lookups:
         if lookup.name == LOOKUP:
             return lookup
-    problem = "it does not say what the bounds of its trials are made of"
+    problem = "it does not declare the inputs of its trials' bounds"
     raise InputError(plan.campaign.file, f"lookup.{LOOKUP}", problem, 'add one: "Planning" in the documentation')
 
 
@@ -109,8 +109,8 @@ def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArc
     )
     for variant, other in others:
         if input_hashes(other) != input_hashes(inputs):
-            problem = f"{variant} has other inputs than {first}"
-            raise InputError(*where, problem, "use parameters that all variants have alike")
+            problem = f"the inputs of {variant} differ from those of {first}"
+            raise InputError(*where, problem, "use parameters with the same values in all variants")
     return inputs, next(iter(systems.values())).archive
 
 

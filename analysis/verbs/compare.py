@@ -84,7 +84,7 @@ def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOp
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:
-        raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
+        raise InputError("compare", "", "no results folder given", "name what batch(..., output=...) wrote")
     compared = compare_folders(Comparison, folders, options["reference"])
     compared.text(options["metrics"])  # rejects unknown names
     return replace(compared, displayed=tuple(options["metrics"]))

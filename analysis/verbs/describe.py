@@ -45,8 +45,8 @@ class Description(Documented, dict[str, Any]):
         from ..documents.render.html import write_document
 
         if self.prepare is None:
-            problem = "only a system and an FMU have a block diagram"
-            raise InputError("`report`", os.fspath(path), problem, "describe one of them, or leave it out")
+            problem = "only systems and FMUs have a block diagram"
+            raise InputError("`report`", os.fspath(path), problem, "describe a system or an FMU, or leave it out")
         write_document(system_document(self.prepare()), Path(path))
 
     def document(self) -> Document:

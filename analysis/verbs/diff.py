@@ -56,5 +56,5 @@ def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> D
     """
     tolerance = options["tolerance"]
     if tolerance is not None and not tolerance >= 0.0:  # NaN fails, too
-        raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction, as 1e-6")
+        raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction such as 1e-6")
     return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), tolerance)

@@ -35,7 +35,7 @@ def docs(**options: Unpack[DocsOptions]) -> Documentation:
     """Open the documentation in a browser, or with ``print`` return its path: `perilune docs`. Raises InputError."""
     if not FIRST_PAGE.is_file():
         remedy = "build it with make docs" if IS_CHECKOUT else "read docs/ of the repository, or reinstall perilune"
-        raise InputError("docs", str(FIRST_PAGE), "the site is not there", remedy)
+        raise InputError("docs", str(FIRST_PAGE), "the documentation is not built", remedy)
     if options["print"]:
         return Documentation(FIRST_PAGE, False)
     open_page("docs", FIRST_PAGE)

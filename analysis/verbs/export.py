@@ -80,7 +80,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     except ValueError as error:  # of a block: its declaration, its imports
         raise SeveralProblemsError(" ".join(str(error).split())) from error
     if flavour is None and "native" not in written.flavours and not available_platforms():
-        warnings.warn("no C compiler here: the Python flavour only; pip install ziglang for both", stacklevel=2)
+        warnings.warn("no C compiler found: the Python flavour only; pip install ziglang for both", stacklevel=2)
     return Exported(written.paths, written.flavours, written.platforms, request.fmi)
 
 
@@ -96,7 +96,7 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
         value = options[name]  # type: ignore[literal-required]
         if value != defaults[name]:
             text = ", ".join(map(str, value)) if isinstance(value, Mapping | list | tuple) else str(value)
-            raise InputError(f"`{name}`", text, "is of a system as one FMU", "give `as_fmu`, or leave it out")
+            raise InputError(f"`{name}`", text, "applies only to a system as one FMU", "give `as_fmu`, or leave it out")
     return None
 
 
@@ -104,7 +104,7 @@ def _candidates(slot: str, fmus: object) -> list[str]:
     """Return the candidates of a slot from a name, a text with commas, or a list. Raises InputError."""
     several = fmus if isinstance(fmus, list | tuple) else str(fmus).split(",") if isinstance(fmus, str | Path) else ()
     if not several or not all(isinstance(each, str | Path) for each in several):
-        raise InputError("`slots`", slot, f"{fmus!r} are no FMUs", "give names or paths, in a text or a list")
+        raise InputError("`slots`", slot, f"{fmus!r} is not a list of FMUs", "give names or paths, as a text or a list")
     return [os.fspath(each).strip() for each in several]
 
 
@@ -113,14 +113,16 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> ExportedFiles:
     request.check_one_fmu()
     name = request.name
     if not _names_system(name) and not name.endswith(".ssp"):
-        problem = "not a system, which alone can be one FMU"
+        problem = "not a system, and only a system can become one FMU"
         raise InputError("`as_fmu`", name, problem, suggestion(name, system_names()))
     archive = open_system(name)
     path = request.output or Path(f"{_archive_name(name).removesuffix('.ssp')}.fmu")
     check_file("`output`", path, (".fmu",))
     platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
     if not platforms:
-        raise InputError("export", name, "needs a C compiler, and there is none", "install cc, or pip install ziglang")
+        raise InputError(
+            "export", name, "needs a C compiler, and none is installed", "install cc, or pip install ziglang"
+        )
     build_system_fmu(archive, path, one_fmu, platforms, portable=zig_is_here())
     return ExportedFiles((path,), ("native",), tuple(platforms))
 
@@ -143,7 +145,9 @@ def _export(request: ExportRequest) -> ExportedFiles:
     is_system = _names_system(text) and (text in system_names() or text not in catalogue())
     for option, value in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
         if value and not is_system:
-            raise InputError(f"`{option}`", value, f"{text} is no system, which it is for", "leave it out")
+            raise InputError(
+                f"`{option}`", value, f"{text} is not a system, and the option applies only to systems", "leave it out"
+            )
     if text.endswith(".py"):
         check_there(Path(text))
         return export_file(Path(text), request)
@@ -166,7 +170,7 @@ def _export_named(request: ExportRequest) -> ExportedFiles:
         path = request.output or Path(f"{_archive_name(name)}.ssp")
         check_file("`output`", path, (".ssp",))
         if fmi == 3 and request.ssp == "1":
-            problem = "FMUs of FMI 3.0 have arrays, which SSP 1.0 has not"
+            problem = "FMUs of FMI 3.0 have arrays, which SSP 1.0 does not support"
             raise InputError("`ssp`", request.ssp, problem, "give 2, or leave out `fmi`")
         export_system(open_system(name), path, flavour, platforms, request)
     else:

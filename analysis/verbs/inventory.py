@@ -108,7 +108,7 @@ def inventory(what: str | None = None) -> Inventory:
     matches = everything.matching(what)
     if matches.is_empty:
         remedy = f"give another text, or a kind: {', '.join(KINDS)}"
-        raise InputError("list", what, "in no name and no description", remedy)
+        raise InputError("list", what, "found in no name or description", remedy)
     return matches
 
 

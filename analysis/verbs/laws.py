@@ -96,7 +96,9 @@ def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
     """Read a law by name, from laws/, or from its .json file: `perilune design law`. Raises InputError."""
     component = options["component"]
     if not component.isprintable() or "" in component.split("."):
-        raise InputError("`component`", repr(component), "not a component's name", "name it as the system does")
+        raise InputError(
+            "`component`", repr(component), "not the name of a component", "give the name that the system uses"
+        )
     return Law(**vars(laws.read_law(find_law(os.fspath(name)))), component=component)
 
 

@@ -168,7 +168,7 @@ def plan_landing_bound(
     """
     chosen = system_options(options)
     if system is None and chosen != SystemOptions():
-        raise InputError("design bound", "system options", "there is no system that they are for", "name a system")
+        raise InputError("design bound", "system options", "no system to which they apply", "name a system")
     prepared = None if system is None else prepare_system(os.fspath(system), chosen)
     inputs = None if prepared is None else _read_inputs(prepared)
     of_vehicle, of_landing = format_numbers(options, OF_VEHICLE), format_numbers(options, OF_LANDING)
@@ -201,7 +201,7 @@ def plan_landing_bound(
 def _read_inputs(prepared: PreparedSystem) -> Inputs:
     inputs = read_inputs(prepared)
     if inputs is None:
-        problem = f"no annotation {ANNOTATION}: it does not say what its landing's bound is made of"
+        problem = f"no annotation {ANNOTATION}: the system does not declare the inputs of its landing's bound"
         raise InputError(prepared.network.file, "Annotations", problem, 'add one: "Planning" in the documentation')
     return inputs
 
@@ -209,8 +209,8 @@ def _read_inputs(prepared: PreparedSystem) -> Inputs:
 def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> None:
     """Reject storing a bound for changed values, or in a folder that cannot store it. Raises InputError."""
     if prepared is None:
-        raise InputError("`store`", "", "no system to store it with", "name a system")
+        raise InputError("`store`", "", "no system in which to store it", "name a system")
     check_stored_system(prepared.archive)
     if changed:
-        problem = "a stored bound is that of the system's own values"
+        problem = "a stored bound uses the system's own values"
         raise InputError("`store`", f"`{changed[0]}`", problem, "leave one out")

@@ -39,7 +39,7 @@ def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]
     """
     paths = tuple(Path(folder) for folder in path_list(folders))
     if not paths:
-        raise InputError("show", "", "no folder of a campaign", "name what batch(..., output=...) wrote")
+        raise InputError("show", "", "no campaign folder given", "name what batch(..., output=...) wrote")
     _refuse_running_loop()
     server = CampaignServer(paths, options["port"] or 0)
     server.serve(lambda address: print(f"open {address}\nCtrl-C ends", flush=True))
@@ -51,4 +51,6 @@ def _refuse_running_loop() -> None:
         asyncio.get_running_loop()
     except RuntimeError:  # asyncio's sign that no loop runs
         return
-    raise InputError("show", "", "an event loop is running here, as in a notebook", "run perilune show in a terminal")
+    raise InputError(
+        "show", "", "an event loop is already running, as in a notebook", "run perilune show in a terminal"
+    )

@@ -105,7 +105,9 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
     problems: list[str] = []
     try:
         if path.endswith(FILES) and options.but(strict=False) != System():
-            raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
+            raise InputError(
+                path, "system options", "not a system, and the option applies only to systems", "check it by itself"
+            )
         if names_fmu(path):
             fmu = load_fmu(_read(path), path)
             violations = [
@@ -142,7 +144,7 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
         read_synthesis(Path(path))
     elif system is None:
         other = read_campaign(Path(path)).system
-        return [f"checked without {other}, which is no system of Perilune's: name the system, too, in the same command"]
+        return [f"checked without {other}, which is not a system of Perilune: also name the system in the same command"]
     else:
         check_plan(read_plan(system, path if os.path.dirname(path) else os.path.join(os.curdir, path), System()))
     return []
@@ -154,7 +156,7 @@ def _check_short_file(path: Path) -> list[str]:
     ssd = path.with_name(DESCRIPTION)
     if not ssd.exists() or find_difference(document, read_input(ssd, "move it away", bound_of(ssd.name))) is None:
         return []
-    return [f"{ssd} is not what {path} states: perilune compose {path} writes it"]
+    return [f"{ssd} does not match {path}: perilune compose {path} writes it again"]
 
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:

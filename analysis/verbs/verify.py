@@ -78,4 +78,4 @@ def _path(text: str, flavour: str | None) -> Path:
         return file
     is_system = text in system_names() or path.is_dir()
     remedy = f"perilune export {text} writes it with its evidence" if is_system else suggestion(text, fmu_flavours())
-    raise InputError("verify", text, "neither an .fmu, an .ssp nor the name of an FMU that is built", remedy)
+    raise InputError("verify", text, "neither an .fmu, an .ssp nor the name of a built FMU", remedy)

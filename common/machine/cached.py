@@ -60,13 +60,13 @@ def _has_checksum(path: Path) -> bool:
 def warn_damaged(path: Path) -> None:
     """Warn of a damaged file, which is written again; once for all files of a cache."""
     home = _cache_of(path.parent)
-    warn_once(f"damaged {home}", f"cache {home}: damaged files are made again, {path.name} for one")
+    warn_once(f"damaged {home}", f"cache {home}: damaged files, such as {path.name}, are written again")
 
 
 def warn_unusable(folder: Path, error: OSError) -> None:
     """Warn of an unusable cache, once for all of its folders."""
     home = _cache_of(folder)
-    warn_once(f"unusable {home}", f"cache {home}: {reason_of(error)}: done without; {remedy_of(error)}")
+    warn_once(f"unusable {home}", f"cache {home}: {reason_of(error)}: the cache is not used; {remedy_of(error)}")
 
 
 def _cache_of(folder: Path) -> Path:

@@ -16,7 +16,7 @@ def check_room(columns: int, rows: float, step: float, things: str = "signals") 
     """
     needed = 8.0 * rows * (columns + 1)
     if needed > SMALL and needed > MEMORY_FRACTION.limit * psutil.virtual_memory().available:
-        excess = f"{MEMORY_FRACTION.limit:.0%} of what is free"
+        excess = f"{MEMORY_FRACTION.limit:.0%} of the free memory"
         problem = f"{rows:.10g} rows of {columns} {things} take {needed / 1e9:.3g} GB, over {excess}"
         remedy = f"give a longer step or an earlier stop time, or set {MEMORY_FRACTION.variable}"
         raise ExcessError("`step`", f"{step:g}", problem, remedy)

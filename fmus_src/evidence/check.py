@@ -101,7 +101,7 @@ def _read_declarations(path: Path) -> dict[str, Any]:
         if not isinstance(bounds, dict) or any(not _is_number(bounds.get(key)) or bounds[key] < 0 for key in BOUNDS):
             raise CheckError(f"{path}: tolerances.{name}: write {{ absolute = 0.0, relative = 1e-9 }}")
     if not declared["tolerances"]:
-        raise CheckError(f"{path}: tolerances: no output, so that nothing is compared; add one")
+        raise CheckError(f"{path}: tolerances: no output, so nothing is compared; add one")
     return declared
 
 
@@ -118,12 +118,12 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
         raise CheckError(f"{table}: not a table of numbers: {error}") from None
     names = next(csv.reader(io.StringIO(check.table.decode())))
     if len(columns) < len(names):
-        raise CheckError(f"{table}: line 1: two columns of one name; remove one")
+        raise CheckError(f"{table}: line 1: two columns of the same name; remove one")
     if next(iter(columns), None) != TIME:
         raise CheckError(f"{table}: line 1: the first column is not {TIME}; write time, inputs, outputs")
     times = columns[TIME]
     if not all(map(math.isfinite, times)) or any(later < earlier for earlier, later in pairwise(times)):
-        raise CheckError(f"{table}: column {TIME}: times that are not finite, or fall; sort the rows")
+        raise CheckError(f"{table}: column {TIME}: a time is not finite or decreases; sort the rows")
     for name in check.tolerances:
         if name not in columns:
             raise CheckError(f"{declarations}: tolerances.{name}: {table.name} has no such column; add it")
@@ -138,4 +138,4 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
         types = PARAMETER_TYPES[variable.type_name]
         if type(number) not in types or not math.isfinite(number):
             kinds = " or ".join(each.__name__ for each in types)
-            raise CheckError(f"{declarations}: parameters.{name}: {number!r} is no finite {kinds}; correct it")
+            raise CheckError(f"{declarations}: parameters.{name}: {number!r} is not a finite {kinds}; correct it")

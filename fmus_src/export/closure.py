@@ -107,7 +107,7 @@ def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
             path = source.with_name(name)
             if not path.is_file():
                 problem = f"data names {name}, and there is no such file next to {source.name}"
-                raise ClosureError(f"{source}: {owner.__name__}: {problem}; write it there, or take the name out")
+                raise ClosureError(f"{source}: {owner.__name__}: {problem}; define it there, or remove the name")
             owners[path] = owner
     return owners
 

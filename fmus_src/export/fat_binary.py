@@ -24,7 +24,7 @@ def fat_binary(libraries: Sequence[bytes]) -> bytes:
         if magic != MACH_O_64:
             raise ValueError(f"magic number {magic:#x} is not that of a 64-bit Mach-O library")
         if processor in processors:
-            raise ValueError(f"two libraries are of processor {processor:#x}; give one of each")
+            raise ValueError(f"two libraries for processor {processor:#x}; give one per processor")
         processors.add(processor)
         body += bytes(-(start + len(body)) % (1 << ALIGNMENT))
         header += struct.pack(">IIIII", processor, variant, start + len(body), len(library), ALIGNMENT)

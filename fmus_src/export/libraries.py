@@ -43,7 +43,7 @@ def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] =
     except OSError as error:
         raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
     if ended is None:
-        raise CompilationFailed("ended, since it is not wanted any more")
+        raise CompilationFailed("ended, since its result is no longer needed")
     return ended
 
 
@@ -102,5 +102,5 @@ def _compile(
             raise CompilationFailed(f"{about}:\n{message or f'error: it {end} without a message'}")
         library = folder / output
         if not library.is_file() or not library.stat().st_size:
-            raise CompilationFailed(f"{about}:\nerror: it wrote no library")
+            raise CompilationFailed(f"{about}:\nerror: the compiler wrote no library")
         return library.read_bytes()

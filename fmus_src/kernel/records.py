@@ -50,7 +50,7 @@ class _RecordType(type):
         fields = {key: value for key, value in namespace.items() if isinstance(value, Field)}
         for base in bases:
             if getattr(base, "fields", None):
-                raise TypeError(f"{name}: a record has no fields of another; make {base.__name__} one of its fields")
+                raise TypeError(f"{name}: a record cannot inherit from another; make {base.__name__} one of its fields")
         for key, field in fields.items():
             if not (field.kind in SCALARS or field.kind in VECTORS.values() or isinstance(field.kind, _RecordType)):
                 raise TypeError(f"{name}.{key}: a field is a float, int, bool, vector or record, not {field.kind!r}")

@@ -121,18 +121,18 @@ def test_python_is_as_ruff_writes_it(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["block", "MyGuidance"], ["MyGuidance", "small letters", "as my_guidance"]),
+        (["block", "MyGuidance"], ["MyGuidance", "lower-case letters", "as my_guidance"]),
         (["block", "pd-2"], ["pd-2", "as pd2"]),
         (["system", "class"], ["class", "as my_class"]),
         (["system", "sub/mine"], ["sub/mine", "as sub_mine"]),
-        (["block", "math"], ["math would be hidden", "my_math"]),
+        (["block", "math"], ["hides Python's math", "my_math"]),
         (["block", "astar_guidance"], ["astar_guidance is an FMU of this repository", "take another"]),
         (["block", "lunar_landing"], ["is a system of this repository"]),
         (["system", "lunar_landing"], ["is a system of this repository"]),
         (["block", "mine", "--slot", "terminal_guidence"], ["--slot", "no such slot", "terminal_guidance"]),
-        (["block", "mine", "--slot", "gyro_steering"], ["--slot", "no block to start from", "use one of allocation"]),
-        (["block", "taken"], ["taken.py", "exists already and is not written over"]),
-        (["system", "there"], ["there", "exists already and is not written over"]),
+        (["block", "mine", "--slot", "gyro_steering"], ["--slot", "no block template", "use one of allocation"]),
+        (["block", "taken"], ["taken.py", "exists already and is not overwritten"]),
+        (["system", "there"], ["there", "exists already and is not overwritten"]),
         (["block", "built"], ["build/fmus/native/built.fmu already", "remove it"]),
     ],
 )

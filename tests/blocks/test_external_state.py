@@ -155,7 +155,9 @@ def test_a_failing_library_fails_the_flight(folder, capsys):
 @pytest.mark.parametrize("here", [False, True])
 def test_what_needs_its_state_refuses_it_by_name(folder, here):
     prepared = prepare_system(folder / "my_oscillator.fmu", SystemOptions(in_process=here))
-    problem = "my_oscillator: simulation is external state, which cannot be saved or perturbed; measure by injection"
+    problem = (
+        "my_oscillator: simulation depends on state outside of the FMU, which cannot be saved or perturbed; measure"
+    )
     with closing(open_simulation(prepared)) as simulation, pytest.raises(InputError, match=problem):
         simulation.memory()
 

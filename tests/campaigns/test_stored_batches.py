@@ -108,27 +108,27 @@ DAMAGES = {
     "no JSON": (lambda f: (f / "summary.json").write_text("{"), "summary.json: not JSON"),
     "not UTF-8": (lambda f: (f / "summary.json").write_bytes(b"\xff"), "summary.json: not JSON"),
     "a list": (lambda f: (f / "summary.json").write_text("[]"), "summary.json: variants: missing"),
-    "old": (lambda f: edit(f / "summary.json", lambda d: d.pop("signals")), "signals: missing, as in results of"),
-    "other seed": (lambda f: edit(f / "summary.json", lambda d: d.update(seed=8)), "of another batch than"),
+    "old": (lambda f: edit(f / "summary.json", lambda d: d.pop("signals")), "signals: missing; perhaps written by"),
+    "other seed": (lambda f: edit(f / "summary.json", lambda d: d.update(seed=8)), "belongs to another batch than"),
     "metadata": (
         lambda f: rewrite(f / LAST, lambda t: t.replace_schema_metadata({})),
-        "000001.parquet: of another batch than summary.json",
+        "000001.parquet: belongs to another batch than summary.json",
     ),
     "rate": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"]["beta"].update(success_rate=0.5)),
-        "variants.beta: its success rate is not that of trials/",
+        "variants.beta: its success rate differs from that in trials/",
     ),
     "variants": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"].pop("beta")),
-        "summary.json: variants: not those of trials/",
+        "summary.json: variants: differ from those in trials/",
     ),
     "column": (lambda f: rewrite(f / LAST, without("metric.miss")), "metric.miss: no such column"),
     "status": (lambda f: rewrite(f / LAST, without("status")), "status: no such column"),
     "texts": (lambda f: rewrite(f / LAST, texts("metric.miss")), "metric.miss: not a column of numbers"),
-    "draws": (lambda f: rewrite(f / "draws.parquet", other_numbers("offset")), "its draws are not those"),
+    "draws": (lambda f: rewrite(f / "draws.parquet", other_numbers("offset")), "its samples differ from those"),
     "draw": (lambda f: rewrite(f / "draws.parquet", lambda t: t.append_column("x", t["offset"])), "draw.x: no such"),
-    "rows": (lambda f: rewrite(f / "draws.parquet", lambda t: t.slice(1)), "its draws are not those of draws.parquet"),
-    "trial": (lambda f: rewrite(f / "draws.parquet", without("trial")), "its draws are not those of draws.parquet"),
+    "rows": (lambda f: rewrite(f / "draws.parquet", lambda t: t.slice(1)), "its samples differ from those in"),
+    "trial": (lambda f: rewrite(f / "draws.parquet", without("trial")), "its samples differ from those in"),
     "trace": (lambda f: truncated(f / "traces" / "beta" / "000002.parquet"), "000002.parquet: cannot be read"),
 }  # fmt: skip
 
@@ -156,7 +156,7 @@ def test_traces_of_an_earlier_batch_are_left_out_and_told(folder):
     read = read_batch(folder)
     assert read.traced == {variant: [0, 1, 2, 3, 4] for variant in ("alpha", "beta", "gamma")}
     assert read.strangers == 3 * 7
-    assert compare([folder]).notes == ("batch holds 21 traces of another batch, which are left out",)
+    assert compare([folder]).notes == ("batch holds 21 traces of another batch, which are omitted",)
     shutil.copy(folder / "traces/alpha/000001.parquet", folder / "traces/alpha/000030.parquet")
     assert 30 not in read_batch(folder).traced["alpha"]
 
@@ -201,7 +201,10 @@ def test_the_reference_is_b(original):
     [
         ({"seed": 8}, "draws: offset is not drawn as in"),
         ({"trials": 39}, "draws: 39 trials, 40 in"),
-        ({"text": CAMPAIGN.replace("[draw.offset]", "[draw.shift]")}, "draws: offset is drawn in one of it and"),
+        (
+            {"text": CAMPAIGN.replace("[draw.offset]", "[draw.shift]")},
+            "draws: offset is drawn in only one of this folder and",
+        ),
         ({"text": CAMPAIGN.replace('unit = "kg"', 'unit = "t"')}, "metric propellant: in t, kg in"),
     ],
 )
@@ -229,7 +232,7 @@ def test_differences_that_matter_are_noted(original, tmp_path):
     text = CAMPAIGN.replace("miss <= 3", "miss <= 2").replace('"ship.tilt"', '"2 * ship.tilt"')
     write_sample(tmp_path / "other", text=text)
     assert compare([original, tmp_path / "other"]).notes == (
-        "batch and other call different things a success: miss <= 3 and miss <= 2",
+        "batch and other define success differently: miss <= 3 and miss <= 2",
         "batch and other define the metric tilt differently",
     )
 

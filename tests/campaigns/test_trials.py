@@ -91,7 +91,7 @@ def test_the_schema_says_what_columns_mean():
         "metric.miss": {"kind": "metric", "meaning": "final of p.x", "unit": "m"},
         "fault.stuck.start": {
             "kind": "fault",
-            "meaning": "fault stuck: from when on it acted; nan where it did not fly",
+            "meaning": "fault stuck: start time; nan where the fault is absent",
             "unit": "s",
         },
     }

@@ -37,7 +37,7 @@ def test_the_page_is_opened(browser_of, tmp_path, monkeypatch, fmus):
 def test_a_browser_that_fails(browser_of, tmp_path, fmus, refusal):
     browser_of("exit 1")
     page = tmp_path / "page.html"
-    assert f"--open: {page}: no browser opens it; open its file yourself" in refusal(
+    assert f"--open: {page}: no browser could open the page; open the file in another way" in refusal(
         ["describe", "lunar_landing", "--report", str(page), "--open"]
     )
     assert page.is_file()

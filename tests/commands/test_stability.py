@@ -211,9 +211,9 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--loop", "lop"], "--loop: lop: the SSD names no such loop; "),
+        (["--loop", "lop"], "--loop: lop: the SSD declares no such loop; "),
         (["--loop", "plant.q"], "no connector plant.q"),
-        (["--at", "3,-1"], "--at: -1: not a time of the flight; give seconds from 0 on"),
+        (["--at", "3,-1"], "--at: -1: not a time of the simulation; give seconds from 0 on"),
         (["--data", "/dev/null/x"], "--data: /dev/null/x: /dev/null is a file; give another folder"),
         (["--trial", "0"], "--trial: 0: there is no campaign"),
         (["--trials", "3"], "--trials: 3: there is no campaign"),
@@ -298,7 +298,7 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
     fraction = f"share of stable trials {1.0 - unstable / TRIALS:.4g} misses the limit 1"
     assert errors == [
         f"perilune: loop loop at there: {fraction}: {unstable} of {TRIALS} trials unstable; "
-        f"the worst again: {spread['replay']}"
+        f"replay the worst: {spread['replay']}"
     ]
     assert main(["stability", *given]) == 1
     assert f"{unstable} of {TRIALS} trials unstable; worst trial {spread['worst_trial']}: " in capsys.readouterr().out

@@ -27,7 +27,7 @@ def test_suggestion_is_nearest_first_among_many():
     assert suggestion("b", ["a", "c"]) == "use one of a, c"
     many = [f"plant.position[{i}]" for i in range(50)] + ["guidance.status"]
     assert suggestion("guidance.statu", many).split(": ")[1].startswith("guidance.status")
-    assert "none to choose" in suggestion("x", [])
+    assert "none is available" in suggestion("x", [])
 
 
 def test_warnings_are_a_line_without_their_place(monkeypatch):

@@ -36,7 +36,7 @@ def test_refused_in_one_line(tmp_path, monkeypatch, capsys, command):
     assert main(command) == 2
     error = capsys.readouterr().err
     assert error.startswith(f"perilune: {command[0]}: n\\udcff")
-    assert "not UTF-8; give a name" in error
+    assert "not UTF-8; give a path" in error
     assert error.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
@@ -54,7 +54,7 @@ def test_a_working_folder(tmp_path, monkeypatch, capsys, refusal):
     assert capsys.readouterr().err.startswith("perilune: working folder: ")
     (tmp_path / NAME).rmdir()
     if sys.platform == "linux":
-        assert "No such file or directory; change to a folder that is there" in refusal(["run", SYSTEM])
+        assert "No such file or directory; change to an existing folder" in refusal(["run", SYSTEM])
 
 
 def test_what_a_terminal_cannot_show_is_escaped():
@@ -81,5 +81,5 @@ def test_a_limit_of_file_sizes_is_named(tmp_path):
     assert done.returncode == 2, done.stderr
     line = done.stderr.splitlines()[-1]  # behind one on the cache, where a function was compiled
     assert line.startswith(f"perilune: {tmp_path / 'out'}")
-    assert "File too large; raise the limit of the size of files (ulimit -f)" in line
+    assert "File too large; raise the limit on file size (ulimit -f)" in line
     assert "space" not in done.stderr

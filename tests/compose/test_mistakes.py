@@ -62,18 +62,18 @@ MISTAKES = {
     "an input with two sources": (
         COUNT,
         f'{COUNT}, "gyros.sample_count -> navigation.star_count"',
-        "navigation.star_count is driven twice, first by star.sample_count; remove one of both",
+        "navigation.star_count is driven twice, first by star.sample_count; remove one of the two",
     ),
     "no arrow": (COUNT, '"star.sample_count"', 'no connection; write "COMPONENT.OUTPUT -> COMPONENT.INPUT"'),
     "an unknown connector of the system": (
         COUNT,
         f'{COUNT}, "star.sample_count -> finished"',
-        "the system has no connector finished, which [system] would declare",
+        "the system has no connector finished: [system] does not declare it",
     ),
     "a connector of the system without a connection": (
         COMPONENTS,
         '[system]\noutput = ["finished"]\n[components]\n',
-        "system.output: finished: nothing is connected to it, so that it has no type and no unit; connect it, or",
+        "system.output: finished: nothing is connected to it, so its type and unit are unknown; connect it, or",
     ),
     "an FMU that is not built": (
         STARS,
@@ -83,13 +83,13 @@ MISTAKES = {
     "a parameter set that is not there": (
         COMPONENTS,
         'parameters = ["nominal.ssv"]\n[components]\n',
-        "parameters: no parameter set nominal.ssv in the system's folder; there is none to choose from here",
+        "parameters: no parameter set nominal.ssv in the system's folder; none is available",
     ),
     "an unknown key": (COMPONENTS, "stoptime = 3\n[components]\n", "stoptime: unknown key; allowed here: name, desc"),
     "declared although connected": (
         COMPONENTS,
         'declare = ["star.sample_count"]\n[components]\n',
-        "declare (line 21): star.sample_count: is connected; leave it out here",
+        "declare (line 21): star.sample_count: is connected; remove it from this list",
     ),
     "an output left unconnected": (
         '["star.*"',
@@ -111,7 +111,7 @@ MISTAKES = {
         f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]',
         "set.satellite.wheel_axes: not 4 rows of 3; give one number for each element, row by row",
     ),
-    "rows of a vector": (SET, SET.replace("0.99, 0.1, 0, 0.1", "[0.99, 0.1], [0, 0.1]"), "rows, for what is no matrix"),
+    "rows of a vector": (SET, SET.replace("0.99, 0.1, 0, 0.1", "[0.99, 0.1], [0, 0.1]"), "parameter is not a matrix"),
     "rows and numbers": (
         SET,
         f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], 2]',

@@ -71,7 +71,7 @@ def test_an_edited_file_is_not_written_over(here, refusal):
     for change in (('stopTime="200"', 'stopTime="100"'), (re.search("<!--.*-->\n", ssd.read_text())[0], "")):
         text = ssd.read_text(encoding="utf-8").replace(*change)
         ssd.write_text(text, encoding="utf-8")
-        assert "and is not written over" in refusal(["compose", SHORT])
+        assert "and is not overwritten" in refusal(["compose", SHORT])
         assert ssd.read_text(encoding="utf-8") == text
     assert "exists already" in refusal(["compose", NAME, "--output", SHORT])
 

@@ -108,7 +108,7 @@ def test_what_changed_since_is_reported(copied, monkeypatch, capsys):
     name = "lunar_descent_2d"
     folder = copied(name)
     monkeypatch.chdir(folder.parent)
-    line = f"perilune: {name}/{TOML}: has changed since {SSD} was composed of it; perilune compose {name}/{TOML}\n"
+    line = f"perilune: {name}/{TOML}: has changed since {SSD} was composed from it; perilune compose {name}/{TOML}\n"
     for file, before, after in ((TOML, 'name = "', '# mine\nname = "'), (NOTES, "</Report>", "<!-- mine --></Report>")):
         assert main(["run", f"./{name}", "--stop-time", "1"]) in (0, 1)
         assert line not in capsys.readouterr().err

@@ -22,11 +22,11 @@ BEYOND = {
         CONNECTION,
         r'\1><ssc:IntegerMappingTransformation><ssc:MapEntry source="1" target="2"/>'
         r"</ssc:IntegerMappingTransformation></ssd:Connection>",
-        r"Connection \(line \d+\): has no place",
+        r"Connection \(line \d+\): cannot be expressed",
     ),
     "units that are not converted": (CONNECTION, r'\1 suppressUnitConversion="true"/>', r"Connection \(line \d+\)"),
     "a description": ('name="star" type', 'name="star" description="of stars" type', r"Component star \(line \d+\)"),
-    "a system inside": ("</ssd:Elements>", INSIDE, r"inner \(line \d+\): is no component"),
+    "a system inside": ("</ssd:Elements>", INSIDE, r"inner \(line \d+\): is not a component"),
     "a prefix": ("<ssd:ParameterBinding t", '<ssd:ParameterBinding prefix="x." t', "a prefix or a mapping"),
 }
 
@@ -49,7 +49,7 @@ def test_beyond_a_system_toml(ssd, capsys, case):
     assert main(["compose", NAME, "--output", "back.toml"]) == 2
     error = capsys.readouterr().err
     assert re.search(line, error), error
-    assert error.endswith("keep the SSD, which flies as it is\n")
+    assert error.endswith("keep the SSD, which can be simulated as it is\n")
     assert not ssd.parents[1].joinpath("back.toml").exists()
 
 
@@ -87,5 +87,5 @@ def test_validate_compares_both(ssd, capsys, refusal):
     assert capsys.readouterr().out == f"{SHORT}: OK\n"
     toml.write_text(toml.read_text(encoding="utf-8").replace("stop_time = 200", "stop_time = 100"), encoding="utf-8")
     assert main(["validate", SHORT]) == 0
-    assert f"is not what {SHORT} states" in " ".join(capsys.readouterr().out.split())
+    assert f"does not match {SHORT}:" in " ".join(capsys.readouterr().out.split())
     assert "perilune compose holding/system.toml writes its SSD" in refusal(["run", SHORT])

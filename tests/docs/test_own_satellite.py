@@ -100,7 +100,7 @@ def test_what_is_declared_once_reaches_all(folder):
     sun, position = flight["environment.sun_direction"][0], flight["satellite.position"][0]
     hours = math.degrees(math.atan2(position[1], position[0]) - math.atan2(sun[1], sun[0])) / 15.0
     assert (hours + 12.0) % 24.0 == pytest.approx(10.5 + EQUATION_OF_TIME, abs=0.5 / 60.0)
-    with pytest.raises(perilune.InputError, match="set epoch instead: they must agree"):
+    with pytest.raises(perilune.InputError, match="set epoch instead, since both must agree"):
         perilune.simulate(folder, set={"onboard.epoch": 0.0}, stop_time=1.0)
 
 

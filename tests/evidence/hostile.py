@@ -61,7 +61,7 @@ CASES = {
         fmu({MANIFEST: "<fmiReferences>" * 100_000}), VERIFY, ("fmi-ls-manifest.xml",)
     ),
     "evidence: sums that are none": Case(
-        fmu(manifest("") | {SUMS: "x" * 100}), VERIFY, ("SHA256SUMS: line 1: not as sha256sum writes it",)
+        fmu(manifest("") | {SUMS: "x" * 100}), VERIFY, ("SHA256SUMS: line 1: not in the format of sha256sum",)
     ),
     "evidence: another standard's": Case(
         fmu({MANIFEST: experiment("")[MANIFEST].replace("fmi-ls-ref", "fmi-ls-bus")}),  # type: ignore[arg-type]

@@ -32,7 +32,7 @@ WIDE = "time," + ",".join(f"c{n}" for n in range(20_000)) + "\n" + "0," * 20_000
         (experiment("") | {OUT: "time,y\n0,a\n1,b\n"}, "e: its reference has no signal to compare"),
         (experiment("") | {OUT: "time,y\n-1,0\n1,0\n"}, "e: its reference starts at -1 s, the simulation at 0 s"),
         (experiment("") | {OUT: "time,y\n0,9007199254740993\n"}, "reference 9007199254740992.0, simulated 0.0"),
-        (FED | {OUT: "time,y\n0,0\n", IN: "time,u\n0,a\n"}, "in.csv: column u: not numbers, as an input has them"),
+        (FED | {OUT: "time,y\n0,0\n", IN: "time,u\n0,a\n"}, "in.csv: column u: not numbers, as an input needs"),
         (experiment("", "gone.csv"), "gone.csv: file: missing, though an experiment names it"),
         (manifest(f'<Related source="out.csv" role="report">{STUDIED}</Related>'), "reports /etc/passwd, which is no"),
         (manifest('<Related source="/etc/passwd" role="result" type="text/csv"/>'), "holds no trajectory"),
@@ -59,7 +59,7 @@ def test_files_that_are_listed_often_are_digested_once(tiny_folder, tmp_path, ca
     assert main(["verify", str(tmp_path / "x.fmu")]) == 1
     captured = capsys.readouterr()
     assert captured.err.count("x.bin: changed: its SHA3-256 is not the manifest's") == 1
-    assert captured.out.count("role 'resutl' is none of the standard") == 1
+    assert captured.out.count("role 'resutl' is not defined by the standard") == 1
 
 
 def test_names_are_those_of_uris(tiny_folder, tmp_path, capsys):
@@ -81,7 +81,7 @@ def test_sums_of_windows_and_of_binary_mode(tiny_folder, tmp_path, capsys, line)
     assert main(["verify", str(tmp_path / "x.fmu")]) == 0
     fmu(files | {SUMS: line.format("0" * 64)})(tmp_path, tiny_folder / "native")
     assert main(["verify", str(tmp_path / "x.fmu")]) == 1
-    assert "modelDescription.xml: changed: its SHA-256 is not that of SHA256SUMS" in capsys.readouterr().err
+    assert "modelDescription.xml: changed: its SHA-256 differs from that in SHA256SUMS" in capsys.readouterr().err
 
 
 def test_flaws_are_notes(tiny_folder, tmp_path, capsys):
@@ -90,9 +90,9 @@ def test_flaws_are_notes(tiny_folder, tmp_path, capsys):
     fmu(manifest(first + second + third))(tmp_path, tiny_folder / "native")
     assert main(["verify", str(tmp_path / "x.fmu")]) == 1
     out = " ".join(capsys.readouterr().out.split())
-    assert "note: manifest: Related (line 1): role 'resutl' is none of the standard" in out
+    assert "note: manifest: Related (line 1): role 'resutl' is not defined by the standard" in out
     assert "note: manifest: Related (line 1): no attribute source" in out
-    assert "note: manifest: Related (line 1): checksumType 'MD5' is none of the standard: not checked" in out
+    assert "note: manifest: Related (line 1): checksumType 'MD5' is not defined by the standard: not checked" in out
 
 
 @pytest.mark.parametrize("name", ["extra/x/a b%20c#d?.toml", "extra/x/ä:1.toml"])

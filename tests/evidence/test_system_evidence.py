@@ -118,7 +118,7 @@ def test_no_such_study(fmus, tmp_path, monkeypatch, refusal):
     monkeypatch.chdir(tmp_path)
     message = "--study: papre: no such study of ssp_systems/lunar_terminal_guidance; use one of paper"
     assert message in refusal(["export", "lunar_terminal_guidance", "--study", "papre"])
-    assert "flat_moon_lander is no system, which it is for" in refusal(
+    assert "flat_moon_lander is not a system, and the option applies only to systems" in refusal(
         ["export", "flat_moon_lander", "--study", "paper"]
     )
     assert list(tmp_path.iterdir()) == []
@@ -143,7 +143,7 @@ def test_a_system_that_cannot_be_simulated_as_it_stands(tiny_folder, tmp_path, m
     for name in ("ramp", "gain"):
         (folder / "resources").mkdir(exist_ok=True)
         shutil.copy(tiny_folder / "native" / f"{name}.fmu", folder / "resources" / f"{name}.fmu")
-    with pytest.warns(UserWarning, match="no trajectory inside: .*stopTime: there is none"):
+    with pytest.warns(UserWarning, match="no trajectory included: .*stopTime: missing"):
         perilune.export(folder, output=tmp_path / "open.ssp")
     (verified,) = perilune.verify(tmp_path / "open.ssp")
     assert verified.problems == ("holds no trajectory: nothing to reproduce",)

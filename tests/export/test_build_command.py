@@ -110,7 +110,7 @@ def test_wrong_files(built, name):
 
 def test_a_declaration_error_is_shown(built):
     text = HEAD + 'class A(Block):\n    """A."""\n    y = Output(0.0, unit="ell", description="y")\n'
-    assert "unit 'ell' is not understood" in built(text, "--flavour", "python")[2]
+    assert "unit 'ell' is unknown" in built(text, "--flavour", "python")[2]
 
 
 def test_a_file_that_is_not_there(tmp_path, monkeypatch, refusal):

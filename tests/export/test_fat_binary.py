@@ -47,7 +47,7 @@ def test_macholib_reads_it(tmp_path):
 @pytest.mark.parametrize(
     ("parts", "words"),
     [
-        ([thin(X86_64), thin(X86_64)], "two libraries are of processor 0x1000007"),
+        ([thin(X86_64), thin(X86_64)], "two libraries for processor 0x1000007"),
         ([b"\x7fELF" + bytes(60)], "magic number 0x464c457f is not that of a 64-bit Mach-O library"),
     ],
 )

@@ -84,7 +84,7 @@ DESCRIPTIONS: dict[str, tuple[Callable[[str], str | bytes], tuple[str, ...]]] = 
     **{
         f"an unknown of {number}": (
             lambda text, number=number: re.sub(r'<Unknown index="\d+"', f'<Unknown index="{number}"', text, count=1),
-            ("Unknown (line", "index", "is not the number of one of its"),
+            ("Unknown (line", "index", "is not the index of one of its"),
         )
         for number in ("0", "99", "-1", "9" * 5000, "one")
     },

@@ -55,7 +55,7 @@ def test_what_does_not_fit_is_refused():
         replace(Motion.of_elements([0.0] * 6), speed=1.0)
     with pytest.raises(TypeError, match="a field is a float, int, bool, vector or record, not <class 'str'>"):
         type("Wrong", (Record,), {"name": Field(str)})
-    with pytest.raises(TypeError, match="a record has no fields of another; make Motion one of its fields"):
+    with pytest.raises(TypeError, match="a record cannot inherit from another; make Motion one of its fields"):
         type("More", (Motion,), {"name": Field()})
     outcome = Outcome(motion=Motion.of_elements([0.0] * 6), count=1, good=True)
     with pytest.raises(TypeError, match="unsupported operand"):

@@ -59,7 +59,7 @@ def test_a_cut_python_fmu_is_built_again(listed, tmp_path):
     assert path.read_bytes() == whole
     path.write_bytes(whole[: len(whole) // 2])
     listed.write_bytes(b"\xff\xfe")
-    with pytest.warns(UserWarning, match=f"damaged files are made again, {NAME}.fmu for one"):
+    with pytest.warns(UserWarning, match=f"damaged files, such as {NAME}.fmu, are written again"):
         assert available.fmu_file(NAME, "python").read_bytes() == whole
     listed.unlink()
     assert available.fmu_file(NAME, "python") == path
@@ -69,7 +69,7 @@ def test_a_cut_python_fmu_is_built_again(listed, tmp_path):
 @pytest.mark.usefixtures("installed")
 def test_without_a_cache_python_fmus_are_temporary_and_ones_own(listed):
     listed.parent.write_text("a file in place of the folder")
-    with pytest.warns(UserWarning, match="Not a directory: done without"):
+    with pytest.warns(UserWarning, match="Not a directory: the cache is not used"):
         path = available.fmu_file(NAME, "python")
     assert own_digests.is_own(digest(path))
     assert available.fmu_file(NAME, "python") == path
@@ -79,7 +79,7 @@ def test_without_a_cache_python_fmus_are_temporary_and_ones_own(listed):
 def test_damaged_lines_of_the_list_are_left_out_and_said(listed, fmu, damage):
     listed.parent.mkdir()
     listed.write_bytes(f"{OTHER}  y.fmu\n".encode() + damage)
-    with pytest.warns(UserWarning, match="SHA256SUMS: line 2 not as sha256sum writes it: left out; remove the file"):
+    with pytest.warns(UserWarning, match="SHA256SUMS: line 2 not in the format of sha256sum: ignored; remove the file"):
         own_digests.note_own(fmu)
     assert own_digests.is_own(digest(fmu))
     assert own_digests.is_own(OTHER)
@@ -101,7 +101,7 @@ def test_a_list_that_cannot_be_looked_at(listed, fmu, monkeypatch, error):
 
     for name in ("stat", "mkdir"):
         monkeypatch.setattr(own_digests.Path, name, refuse)
-    with pytest.warns(UserWarning, match=f"cache {listed.parent}: {error.strerror}: done without"):
+    with pytest.warns(UserWarning, match=f"cache {listed.parent}: {error.strerror}: the cache is not used"):
         own_digests.note_own(fmu)
     assert own_digests.is_own(digest(fmu))
 

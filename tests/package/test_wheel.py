@@ -163,7 +163,7 @@ def test_every_verb_in_another_folder(installed, perform, tmp_path):
     perform(*search, status=1)  # nothing is found so soon
     refused = installed.run("design", "bound", "landing_mission", "--store", cwd=tmp_path)
     assert refused.returncode == 2
-    assert "a system of the installed package, which is not written to; copy this folder" in refused.stderr
+    assert "a system of the installed package, which is read-only; copy this folder" in refused.stderr
     assert installed.files() == before, "site-packages were written to"
     assert {path.name for path in installed.site.iterdir()} == {"perilune", "perilune-0.1.0.dist-info", "shared.pth"}
     assert not (installed.home / ".cache" / "perilune" / "loop").exists(), "the loop in the wheel was not used"

@@ -62,8 +62,13 @@ def replace(file: Path, old: str, new: str) -> None:
     [
         ("pyproject.toml", URLS, "", "pyproject.toml: [project.urls]: missing"),
         ("pyproject.toml", f'"{VERSION}"', '"99.2.0"', "CITATION.cff: version: not 99.2.0 as in pyproject.toml; write"),
-        ("CHANGELOG.md", "## Unreleased\n", "", "CHANGELOG.md: ## 0.0.9 (2026-01-02): where ## Unreleased is to be; "),
-        ("CHANGELOG.md", "- news", "", "CHANGELOG.md: ## Unreleased: empty; write what has changed"),
+        (
+            "CHANGELOG.md",
+            "## Unreleased\n",
+            "",
+            "CHANGELOG.md: ## 0.0.9 (2026-01-02): stands in the place of ## Unreleased; ",
+        ),
+        ("CHANGELOG.md", "- news", "", "CHANGELOG.md: ## Unreleased: empty; list the changes"),
         ("CHANGELOG.md", "0.0.9", VERSION, f"CHANGELOG.md: ## {VERSION}: released before; raise the version"),
     ],
 )
@@ -124,7 +129,7 @@ def test_a_wheel_that_lacks_something_is_refused(tmp_path, version, name, messag
 def test_a_link_that_an_index_has_no_file_for_is_refused():
     check_page("[a](https://example.org) and [b](#b)")
     for target in ("docs/x.md", "LICENSE"):
-        with pytest.raises(InputError, match=f"README.md: {target}: leads nowhere"):
+        with pytest.raises(InputError, match=f"README.md: {target}: is a dead link"):
             check_page(f"[a]({target})")
 
 

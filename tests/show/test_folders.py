@@ -103,7 +103,7 @@ def test_another_campaign_in_its_place(folder):
     pyarrow.parquet.write_table(table.replace_schema_metadata({"perilune": json.dumps(about)}), path)
     answer = client.query("counts", histograms=client.numbers("metric.m1"))
     assert answer.status_code == 422
-    assert "of another batch than the campaign that was opened" in answer.text
+    assert "belongs to another batch than the campaign that was opened" in answer.text
 
 
 def test_a_column_that_the_summary_does_not_declare(folder, capsys):

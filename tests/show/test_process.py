@@ -98,7 +98,7 @@ def test_in_an_event_loop(campaign_folder):
     async def call():
         perilune.show(campaign_folder)
 
-    with pytest.raises(InputError, match="an event loop is running here"):
+    with pytest.raises(InputError, match="an event loop is already running"):
         asyncio.run(call())
 
 

@@ -59,7 +59,7 @@ def test_linearised_is_not_applicable_and_says_why(path):
     report = perilune.stability(path, loops=["law.y"], at=1.0, feedthrough=["law"])
     (loop,) = report.loops
     assert "law.fmu" in loop.not_applicable["linearisation"]
-    assert "does not tell how it serialises its memory" in loop.not_applicable["linearisation"]
+    assert "does not document how it serialises its state" in loop.not_applicable["linearisation"]
     assert (loop.linearised, loop.agreement, loop.structure, loop.dispersion) == (None, None, None, None)
     assert (loop.modes, loop.sampling, len(loop.poles_z)) == ((), (), 0)
     assert (loop.stable, loop.unstable_open, loop.classical.encirclements) == (None, None, None)
@@ -105,7 +105,7 @@ def test_an_unstable_loop_reads_unstable_with_its_growth(path, capsys, gain):
     """
     report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain}, feedthrough=["law"])
     (lost,) = report.unstudied
-    expected = f"unstable, grows {math.sqrt(gain * STEP):.5g}-fold a sample"
+    expected = f"unstable: the response grows {math.sqrt(gain * STEP):.5g}-fold per sample"
     assert (report.loops, lost.name, lost.what, lost.reason) == ((), "law.y", "loop", expected)
     assert (lost.verdict, report.verdict) == ("fail", "fail")
     assert report.to_json()["unstudied"][0]["verdict"] == "fail"
@@ -127,7 +127,7 @@ def test_a_loop_that_is_unstable_in_one_order_only_is_withheld(path):
     ("loop", "words"),
     [
         ("law.z", r"no connector law\.z"),
-        ("law", "the SSD names no such loop"),
+        ("law", "the SSD declares no such loop"),
         ("plant.y[1]", "no connector"),
     ],
 )

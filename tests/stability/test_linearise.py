@@ -157,7 +157,7 @@ def test_the_point_where_a_signal_falls_to_a_value(bench_of, exact_fmus):
         (LoopDeclaration("l", "first.z", ("there",)), r"no connector first\.z"),
         (
             LoopDeclaration("l", "first.y", ("there",), period=0.3),
-            r"period 0\.3 s is no whole number of communication steps",
+            r"period 0\.3 s is not a whole number of communication steps",
         ),
         (LoopDeclaration("l", "first.y", ("there",), returned="plant.position"), r"plant\.position has 2 components"),
         (LoopDeclaration("l", "first.y", ("there",), direction="plant.u"), r"plant\.u"),
@@ -183,7 +183,7 @@ def test_a_flight_that_ends_early_is_told(bench_of, exact_fmus):
         PointDeclaration("there", time=400.0),
         [LoopDeclaration("l", "control.y", ("there",))],
     )
-    with pytest.raises(StudyError, match=r"the flight for point there ended early \(nonfinite at t = [\d.]+ s\)"):
+    with pytest.raises(StudyError, match=r"the simulation for point there ended early \(nonfinite at t = [\d.]+ s\)"):
         OperatingPoint(bench)
 
 

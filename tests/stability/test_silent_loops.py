@@ -1,4 +1,4 @@
-"""Loops of which nothing comes back at the amplitudes of a study, because of a quantiser on the path.
+"""Loops of which no signal returns at the amplitudes of a study, because of a quantiser on the path.
 
 Truth: jets in steps of 0.05 N do not answer a change of a thousandth of that, and dock all the same.
 """
@@ -15,7 +15,7 @@ def test_a_quantiser_on_the_path_is_named_and_passes_nothing(capsys):
     """It read `modulus margin 1.000, disk margin 2.000: pass`."""
     assert main(["stability", "robot_rendezvous", "--loop", CUT, "--at", "20"]) == 1
     captured = capsys.readouterr()
-    lines = [f"{CUT}[{k}] at t = 20 s: not applicable: nothing comes back behind jets" for k in (1, 2, 3)]
+    lines = [f"{CUT}[{k}] at t = 20 s: not applicable: no signal returns downstream of jets" for k in (1, 2, 3)]
     assert captured.out.splitlines()[:3] == lines
     assert captured.err.splitlines() == [f"perilune: loop {line}" for line in lines]
     assert not any(claim in captured.out for claim in ("unstable", "radius", "margin", "pass"))

@@ -218,7 +218,7 @@ def test_a_loop_that_changes_from_sample_to_sample_is_given_over_its_hyperperiod
     port = model.ports[0]
     actual = open_loop(model, (port,))
     assert (actual.samples, actual.period) == (port.count, model.period)
-    assert 1e-6 < actual.error < 1e-2  # what comes back at other frequencies, and comes round again
+    assert 1e-6 < actual.error < 1e-2  # what returns at other frequencies, and comes round again
     assert actual.inputs == tuple(f"first in at sample {index + 1}" for index in range(port.count))
     wave = np.exp(1j * 0.8 * port.seconds * np.arange(port.count))
     value = wave.conj() @ actual.response(np.array([0.8]))[0] @ wave / port.count

@@ -158,7 +158,7 @@ def test_files_have_both_orders(reports, tmp_path):
 
 def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_fmus, reports):
     path = wheel_satellite(folder, exact_fmus, PERIOD)
-    reason = "the flight for point there ended early"
+    reason = "the simulation for point there ended early"
 
     def make(request):
         if request.options.chosen["feedthrough"]:
@@ -214,7 +214,7 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     )
     (line,) = [line for line in reported.err.splitlines() if "modulus margin withheld" in line]
     assert line.startswith("perilune: loop attitude at there: modulus margin withheld: 0.3963 without")
-    assert line.endswith("limit 0.5; say --feedthrough wheel or --no-feedthrough wheel, or take a smaller step")
+    assert line.endswith("limit 0.5; give --feedthrough wheel or --no-feedthrough wheel, or use a smaller step")
     actual = json.loads(file.read_text())
     assert actual["verdict"] == "withheld"
     orders = actual["feedthrough_orders"]

@@ -55,8 +55,8 @@ def test_its_command_says_so(exact_fmus, tmp_path, capsys):
     assert (loop["stable"], loop["gain_margin_db"], loop["verdict"]) == (False, "unstable", "fail")
     captured = capsys.readouterr()
     assert f"unstable, spectral radius {falling(1):.4g}, linearised and measured responses agree: fail" in captured.out
-    assert "nothing of what is added comes back" in captured.out
-    assert "what grows is outside of this loop: plant." in captured.err
+    assert "none of the injected signal returns" in captured.out
+    assert "the instability is outside of this loop: plant." in captured.err
 
 
 def test_a_pendulum_beside_the_loop(exact_fmus, tmp_path):
@@ -95,7 +95,7 @@ def test_a_loop_of_foreign_fmus_without_gain_has_no_verdict(tmp_path):
     report = perilune.stability(foreign_system(tmp_path), loops=["law.y"], at=1.0, set={"law.gain": 0.0})
     assert (report.loops, report.verdict) == ((), "not applicable")
     (lost,) = report.unstudied
-    assert lost.reason == "nothing comes back behind law"
+    assert lost.reason == "no signal returns downstream of law"
 
 
 def test_blocks_of_a_matrix():

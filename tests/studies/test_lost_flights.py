@@ -89,6 +89,6 @@ def test_a_comparison_notes_them(crashing, tmp_path, capsys):
     page = tmp_path / "page.html"
     capsys.readouterr()
     assert main(["compare", str(tmp_path / "bad"), str(tmp_path / "good"), "--report", str(page)]) == 0
-    line = f"bad: {count} crashed of 40 trials, which are no successes"
+    line = f"bad: {count} crashed of 40 trials, counted as failures"
     assert line in capsys.readouterr().out.splitlines()
     assert line in page.read_text()

@@ -54,4 +54,4 @@ def test_a_browser_opens_the_first_page(page, opened, monkeypatch, capsys, refus
     assert opened == [page.as_uri()]
     monkeypatch.setattr(webbrowser, "open", lambda _: False)
     capsys.readouterr()
-    assert "no browser opens it" in refusal(["docs"])
+    assert "no browser could open the page" in refusal(["docs"])

@@ -171,13 +171,13 @@ CASES = {
     ),
     "an option with a typo": ([*RUN, "--sett", "x=1"], ["run: ", "--sett", "see perilune run --help"]),
     "an option of design with a typo": (["design", "law", "x", "--no"], ["--no", "see perilune design law --help"]),
-    "a campaign as a system": (["run", "mine.toml"], ["a campaign is no system", "--campaign mine.toml"]),
+    "a campaign as a system": (["run", "mine.toml"], ["a campaign is not a system", "--campaign mine.toml"]),
     "a slot with a typo": ([*RUN, "--use", "guidence=astar_guidance"], ["--use", "guidence", "use one of", "guidance"]),
     "an FMU that does not fit": (
         [*RUN, "--use", "guidance=kalman_navigation"],
-        ["--use: guidance=kalman_navigation", "does not fit guidance", "guidance.mass", "these do: analytic_exact_g"],
+        ["--use: guidance=kalman_navigation", "does not fit guidance", "guidance.mass", "these fit: analytic_exact_g"],
     ),
-    "--use without =": ([*RUN, "--use", "astar_guidance"], ["--use", "SLOT=FMU", "write it so"]),
+    "--use without =": ([*RUN, "--use", "astar_guidance"], ["--use", "SLOT=FMU", "use this form"]),
     "a slot twice": (
         [*RUN, "--use", "guidance=astar_guidance", "--use", "guidance=analytic_guidance"],
         ["--use", "guidance is given twice", "give it once"],
@@ -274,7 +274,10 @@ CASES = {
     "an FMU that is not there": ([*RUN, "--use", "guidance=none.fmu"], ["none.fmu", "no such file"]),
     "an .ssp without an SSD": (["run", "empty.ssp"], ["empty.ssp", "SystemStructure.ssd", "not found"]),
     "a folder without an SSD": (["run", "folder"], ["folder", "SystemStructure.ssd", "not found"]),
-    "a file of blocks that is to fly": (["run", "no_block.py"], ["no_block.py", "no system", "perilune export no_bl"]),
+    "a file of blocks that is to fly": (
+        ["run", "no_block.py"],
+        ["no_block.py", "not a system", "perilune export no_bl"],
+    ),
     "a file of blocks to validate": (["validate", "no_block.py"], ["no_block.py", "perilune export no_block.py"]),
     "an annotation with a typo": (["run", "stabilty"], ["line 16", "org.perilune.stabilty", ".stability"]),
     "an annotation of ours that is none": (["run", "orbit"], ["org.perilune.orbit", "use one of", ".step"]),
@@ -351,8 +354,8 @@ CASES = {
     "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
     "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
     "something to export with a typo": (["export", "astar_guidence"], ["astar_guidence", "astar_guidance"]),
-    "a block over a file": (["new", "block", "here"], ["here.py", "not written over", "another name"]),
-    "a system over a folder": (["new", "system", "folder"], ["folder", "not written over", "another name"]),
+    "a block over a file": (["new", "block", "here"], ["here.py", "not overwritten", "another name"]),
+    "a system over a folder": (["new", "system", "folder"], ["folder", "not overwritten", "another name"]),
     "a block of no slot": (["new", "block", "mine", "--slot", "guidance"], ["--slot", "guidance", "terminal_guidance"]),
 }
 

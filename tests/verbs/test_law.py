@@ -90,8 +90,8 @@ def test_json(tmp_path, capsys):
         (["diveev_2013", "--output", "law.txt"], "--output: law.txt: not .ssv"),
         (["diveev_2013", "--graph", "law.png"], "--graph: law.png: not .svg"),
         (["diveev_2013", "--component", "plant"], "--component: plant: without effect unless --output is given"),
-        (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not a component's name"),
-        (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not a component's name"),
+        (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not the name of a component"),
+        (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not the name of a component"),
         (["bad.json", "--output", "law.ssv", "--graph", "law.svg"], "bad.json: matrix[8,3]: 5 below the diagonal"),
     ],
 )

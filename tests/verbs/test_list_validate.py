@@ -71,7 +71,7 @@ def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
     names = ["good.ssv", "bad.ssv", "bad.fmu", "bad.toml", "odd.fmu", "gone.ssv", "gone.toml", "gone.fmu", "gone"]
     assert main(["validate", *names, "--strict"]) == 2
     captured = capsys.readouterr()
-    assert captured.out == "good.ssv: OK\nodd.fmu: note: the FMU proposes no stop time: 1 s taken\n"
+    assert captured.out == "good.ssv: OK\nodd.fmu: note: the FMU proposes no stop time: 1 s is used\n"
     lines = captured.err.splitlines()
     assert len(lines) == 8, captured.err
     for name, line in zip(names[1:], lines, strict=True):
@@ -112,7 +112,7 @@ expression = "end > 0"
     ("name", "parameter", "problem"),
     [
         ("s", "slope", None),
-        ("other", "slope", "system: the campaign is for other, not s; fly that system"),
+        ("other", "slope", "system: the campaign is for other, not s; simulate other"),
         ("s", "gone", "no such parameter in the system"),
     ],
 )
@@ -138,7 +138,7 @@ def test_a_campaign_without_its_system_is_noted(tmp_path, capsys):
     (tmp_path / "c.toml").write_text(CAMPAIGN.format("other", "slope"))
     assert main(["validate", str(tmp_path / "c.toml")]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "checked without other, which is no system of Perilune's: name the system, too, in the same command" in said
+    assert "checked without other, which is not a system of Perilune: also name the system in the same command" in said
 
 
 @pytest.mark.usefixtures("fmus")

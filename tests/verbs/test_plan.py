@@ -157,8 +157,8 @@ def test_no_programme(capsys):
         (["transfer", "--dry-mass", "600"], "--dry-mass: 600: not below the mass, 600 kg"),
         (["bound", "--speed", "inf"], "--speed: 'inf': not a finite number"),
         (["bound", "--climb", "90"], "--climb: 90: above 89"),
-        (["bound", "--store"], "--store: no system to store it with; name a system"),
-        (["bound", "--parameters", "a.ssv"], "system options: there is no system that they are for"),
+        (["bound", "--store"], "--store: no system in which to store it; name a system"),
+        (["bound", "--parameters", "a.ssv"], "system options: no system to which they apply"),
         (["bound", "no_such_system"], "no_such_system: system: neither a system, a folder nor a file"),
         (["nothing"], "argument VERB: invalid choice: 'nothing'"),
         ([], "the following arguments are required: VERB"),
@@ -189,12 +189,12 @@ def no_solvers(monkeypatch):
     [
         (
             ["transfer", "--optimum"],
-            "plan: casadi: the true optimum needs it, and it is not installed; pip install",
+            "plan: casadi: the true optimum needs this package, which is not installed; pip install",
         ),
-        (["transfer", "--bound"], "plan: clarabel: the bound needs it, and it is not installed; pip install"),
+        (["transfer", "--bound"], "plan: clarabel: the bound needs this package, which is not installed; pip install"),
         (
             ["bound"],
-            "plan: clarabel: the bound needs it, and it is not installed; pip install 'perilune[plan]'",
+            "plan: clarabel: the bound needs this package, which is not installed; pip install 'perilune[plan]'",
         ),
     ],
 )
@@ -253,7 +253,7 @@ def test_what_is_not_stored(tmp_path, capsys):
     for arguments, words in (
         (
             [str(place), "--mass", "900", "--store"],
-            "--store: --mass: a stored bound is that of the system's own values",
+            "--store: --mass: a stored bound uses the system's own values",
         ),
         (["lunar_landing"], "no annotation org.perilune.bound"),
     ):

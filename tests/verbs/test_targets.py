@@ -86,11 +86,11 @@ BAD = {
     "folder": "is a folder; give the name of a file in it",
     "file/x": "file is a file; give another folder",
     "a/b/c/x": "there is no folder",
-    "/perilune_new/x": "/perilune_new would be a new folder in the root; make it first, mkdir /perilune_new, or leave",
+    "/perilune_new/x": "/perilune_new would be a new folder in the root; create it first (mkdir /perilune_new)",
     "n" * 300: "cannot be written in",
 }
 if sys.platform == "linux":
-    BAD |= {"/proc/x": "cannot be written in /proc: ", "/dev/null": "is a device, which a file would replace"}
+    BAD |= {"/proc/x": "cannot be written in /proc: ", "/dev/null": "is a device, not a regular file"}
 
 
 def targets_of(verb):
@@ -135,7 +135,7 @@ def test_a_link_among_devices_stays(tmp_path, monkeypatch, refusal):
     (tmp_path / "log").write_text("")
     (tmp_path / "stdout").symlink_to(tmp_path / "log")
     monkeypatch.setattr("perilune.common.targets.DEVICES", tmp_path.resolve())
-    assert "is a device, which a file would replace" in refusal([*RUN, "--json", str(tmp_path / "stdout")])
+    assert "is a device, not a regular file" in refusal([*RUN, "--json", str(tmp_path / "stdout")])
     assert (tmp_path / "stdout").is_symlink()
 
 
@@ -153,7 +153,7 @@ def test_a_folder_with_results_is_not_written_over_without_a_word(tmp_path, caps
     capsys.readouterr()
     assert main([*BATCH, "--seed", "5", "--output", str(out)]) == 2
     words = "holds results already (manifest.json, trials, draws.parquet, summary.json); "
-    words += "give another, or --resume or --overwrite"
+    words += "give another folder, or --resume or --overwrite"
     assert words in capsys.readouterr().err
     assert (out / "trials" / "000000.parquet").read_bytes() == before
     assert main([*BATCH, "--seed", "5", "--output", str(out), "--overwrite"]) == 0

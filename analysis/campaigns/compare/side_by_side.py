@@ -16,8 +16,8 @@ from ..lost_trials import lost_lines
 from .comparison import CampaignComparison, Contender
 
 DIFFERENCES = {
-    "system": "fly different systems",
-    "success": "call different things a success",
+    "system": "simulate different systems",
+    "success": "define success differently",
     "seed": "have different seeds, so their components' random errors differ",
     "step": "have different steps",
     "algorithm": "exchange values by different algorithms",
@@ -75,14 +75,16 @@ def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
         problem = f"{other_count} trials, {count} in {first.folder}"
     elif set(first.draws) != set(other.draws):
         name = min(set(first.draws) ^ set(other.draws))
-        problem = f"{name} is drawn in one of it and {first.folder} only"
+        problem = f"{name} is drawn in only one of this folder and {first.folder}"
     else:
         for name, values in first.draws.items():
             if not np.array_equal(values, other.draws[name]):
                 problem = f"{name} is not drawn as in {first.folder}"
                 break
     if problem:
-        raise InputError(other.folder, "draws", problem, "compare batches of one campaign, number of trials and seed")
+        raise InputError(
+            other.folder, "draws", problem, "compare campaigns with the same draws, number of trials and seed"
+        )
 
 
 def _check_units(first: StoredBatch, other: StoredBatch) -> None:
@@ -90,7 +92,7 @@ def _check_units(first: StoredBatch, other: StoredBatch) -> None:
     for metric in other.metrics:
         if units.get(metric.name, metric.unit) != metric.unit:
             problem = f"in {metric.unit}, {units[metric.name]} in {first.folder}"
-            raise InputError(other.folder, f"metric {metric.name}", problem, "compare metrics of one unit")
+            raise InputError(other.folder, f"metric {metric.name}", problem, "compare metrics in the same unit")
 
 
 def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
@@ -110,7 +112,7 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
             if any(getattr(known, key) != getattr(metric, key) for key in DEFINITION):
                 yield f"{pair} define the metric {metric.name} differently"
         if other.strangers:
-            yield f"{other_name} holds {other.strangers} traces of another batch, which are left out"
+            yield f"{other_name} holds {other.strangers} traces of another batch, which are omitted"
 
 
 def _distinct_names(paths: Sequence[Path]) -> list[str]:

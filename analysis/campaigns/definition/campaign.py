@@ -175,8 +175,8 @@ class Campaign:
         }
         for element, formula in asking.items():
             for name in sorted(formula.names & dropped):
-                problem = f"{name} needs a lookup, whose numbers are of the campaign's own trials"
-                raise InputError(self.file, element, problem, "use another campaign for trials that are not its own")
+                problem = f"{name} needs a lookup, which has values for the campaign's own trials only"
+                raise InputError(self.file, element, problem, "use a campaign without lookups for other trials")
         return replace(
             self,
             lookups=(),
@@ -236,10 +236,8 @@ def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Trial
     for values in parts:
         distinct = np.union1d(distinct, values)
         if distinct.size > MAXIMUM_GROUPS:
-            problem = f"{distinct.size} different values or more, a group each"
-            raise InputError(
-                *where, problem, f"group by a value with {MAXIMUM_GROUPS} at most, as a choice or a grid has"
-            )
+            problem = f"at least {distinct.size} different values, one group each"
+            raise InputError(*where, problem, f"group by a quantity with at most {MAXIMUM_GROUPS} values")
     plain = [float(value) + 0.0 for value in distinct]  # no -0
     labels = [f"{value:.10g}" for value in plain]
     if len(set(labels)) < len(labels):

@@ -90,7 +90,7 @@ def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) 
     for formula in lookup.formulas:
         for name in sorted(formula.names - sampled):
             if _is_signal(prepared, name) or _causality(prepared, name) in OVER_TIME:
-                problem = f"{name} varies over a flight"
+                problem = f"{name} varies during a simulation"
                 raise InputError(*formula.where, problem, "use draws, derived values and parameters")
             constants[name] = _constant(plan, prepared, name)
     return constants
@@ -123,10 +123,10 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
         if slot in plan.campaign.compare:
             raise InputError("`use`", slot, "the campaign compares FMUs in this slot", f"give `compare` {slot}=A,B")
         if any(slot in variant.use for variant in variants):
-            raise InputError("`use`", slot, "configurations of the campaign choose this FMU", "change the campaign")
+            raise InputError("`use`", slot, "the campaign's configurations choose this FMU", "change the campaign")
     for name in plan.options.set:
         if any(name in variant.settings for variant in variants):
-            raise InputError("`set`", name, "configurations of the campaign set it", "change the campaign")
+            raise InputError("`set`", name, "the campaign's configurations set it", "change the campaign")
         sampled = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.input_names())
         if sampled or name.endswith((".seed", ".stream")):
             raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
@@ -160,12 +160,12 @@ def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.nd
     place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
         remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
-        raise InputError(place, name, f"drawn values are not whole, it is {variable.type}", remedy)
+        raise InputError(place, name, f"drawn values are not whole numbers, but it is of type {variable.type}", remedy)
     _, low, high = variable
     outside = np.flatnonzero((values < low) | (values > high))
     if outside.size:
         problem = f"{values[outside[0]]:g} in trial {first + outside[0]} is outside {low:g} to {high:g}"
-        raise InputError(place, name, problem, "draw values that the parameter can have")
+        raise InputError(place, name, problem, "draw values within these limits")
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ def _check_name(table: TomlTable, name: str, taken: Iterable[str]) -> None:
         remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
         raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
     if name in RESERVED or name in COLUMNS or stream_component(name) is not None:
-        raise table.error(name, f"{name!r} has a meaning of its own", "choose another name")
+        raise table.error(name, f"{name!r} is a reserved name", "choose another name")
     if name in taken:
         raise table.error(name, f"{name!r} is declared twice", "give each value one declaration and one name")
 
@@ -74,7 +74,7 @@ def _lookup(name: str, table: TomlTable, others: Iterable[str]) -> Lookup:
     inputs = table.table("inputs")
     formulas = {key: sequence(_formula)(inputs, key, _as_list(entry)) for key, entry in inputs.content.items()}
     if not formulas:
-        raise table.error("inputs", "no input", "add what its numbers are made of: name = expression, or a list")
+        raise table.error("inputs", "no input", "name the inputs of its values: name = expression, or a list")
     return Lookup(name, table.get("column", text), formulas, origin, file, label, content)
 
 
@@ -192,7 +192,7 @@ def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatte
 def parse_campaign(table: TomlTable) -> Campaign:
     """Return the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
-        remedy = "search with perilune design search, then fly the law with a campaign without this table"
+        remedy = "search with perilune design search, then simulate the law in a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     table.only(TABLE)
     draws = _draws(table.table("draw"))
@@ -242,8 +242,8 @@ def read_settings(table: TomlTable, dispersed: Sequence[str]) -> dict[str, Setti
             case list() if value and all(isinstance(item, float | int) for item in value):
                 settings[name] = value
             case _:
-                remedy = "give a number, true, false or a text; of a vector a list of numbers"
-                raise table.error(name, f"{value!r} is no value", remedy)
+                remedy = "give a number, true, false or a text; for a vector a list of numbers"
+                raise table.error(name, f"{value!r} is not a valid value", remedy)
         if "." not in name:
             raise table.error(name, "names no component", "write component.variable = value")
         if name in dispersed:

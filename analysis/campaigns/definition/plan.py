@@ -238,13 +238,15 @@ def read_plan(
     read = parse_campaign(source.table())
     is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # whatever the archive is called
     if not is_called(read.system, archive.name) and not is_its:
-        raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
+        raise InputError(
+            label, "system", f"the campaign is for {read.system}, not {archive.name}", f"simulate {read.system}"
+        )
     _check_changes(trials, draws, sweeps or {})
     changed = _change(read, trials, seed, compare, sweeps or {})
     if configuration is not None:
         changed = changed.select(configuration)
     if until_decided and not changed.requirements:
-        remedy = "declare what is to be decided: [requirement.NAME]"
+        remedy = "declare a [requirement.NAME]"
         raise InputError(label, "`until_decided`", "the campaign has no requirement", remedy)
     plan = BatchPlan(
         str(system),
@@ -266,9 +268,13 @@ def _check_changes(trials: int | None, draws: Path | None, sweeps: Mapping[str, 
     if trials is not None and trials < 1:
         raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
     if draws is not None and trials is not None:
-        raise InputError("`trials`", str(trials), "the file of `draws` says how many", "leave one of the two out")
+        raise InputError(
+            "`trials`", str(trials), "the file of `draws` determines the number of trials", "leave one of the two out"
+        )
     if draws is not None and sweeps:
-        raise InputError("`set`", "=".join(next(iter(sweeps.items()))), "a sweep beside `draws`", "leave one out")
+        raise InputError(
+            "`set`", "=".join(next(iter(sweeps.items()))), "a sweep together with `draws`", "leave one out"
+        )
 
 
 def _change(

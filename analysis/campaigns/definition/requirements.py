@@ -57,7 +57,7 @@ def _requirement(name: str, table: TomlTable, metrics: Collection[str]) -> Requi
     for unknown in sorted(requested.names - set(known)):
         raise table.error("expression", f"{unknown!r} is not a metric", suggestion(unknown, known))
     if not requested.names:
-        raise table.error("expression", "uses no metric, so that no flight bears on it", suggestion("", known))
+        raise table.error("expression", "uses no metric and cannot be evaluated", suggestion("", known))
     metric = table.get("metric", text, REQUIRED if "bound" in table.content else None)
     if metric is not None and metric not in metrics:
         raise table.error("metric", f"{metric!r} is not a metric", suggestion(metric, metrics))
@@ -86,5 +86,7 @@ def _share(table: TomlTable, key: str, value: object) -> float:
 def _confidence(table: TomlTable, key: str, value: object) -> float:
     confidence = _share(table, key, value)
     if confidence < 0.5:
-        raise table.error(key, f"{value!r}: below a half, met and not met could both be shown", 'write 0.9, or "90 %"')
+        raise table.error(
+            key, f"{value!r} is below 0.5, where a requirement could be both met and not met", 'write 0.9, or "90 %"'
+        )
     return confidence

@@ -135,7 +135,7 @@ def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
         return archive.label_of(path), archive.read(path, origin) if path in archive.files else None
     file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
-    return str(file), read_input(file, "look another file up", INPUT_BYTES) if names_file(file) else None
+    return str(file), read_input(file, "name another lookup file", INPUT_BYTES) if names_file(file) else None
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
@@ -173,7 +173,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
         content = tomllib.loads(text)
         _check_integers(content, "", label)
     except RecursionError as error:
-        raise InputError(label, "", "not TOML: too many arrays or tables in one another", "correct the file") from error
+        raise InputError(label, "", "not TOML: arrays or tables are nested too deeply", "correct the file") from error
     except ValueError as error:  # also for integers of many thousand digits
         if isinstance(error, InputError):
             raise

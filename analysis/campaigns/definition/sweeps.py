@@ -40,12 +40,17 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     draws = [Draw(name, (name,), grid) for name, grid in grids.items()]
     for name, text in sweeps.items():
         if "." not in name:
-            raise InputError(SINGLE, f"{name}={text}", "a sweep of what is no component's", "give component.variable")
+            raise InputError(
+                SINGLE,
+                f"{name}={text}",
+                "not a component's variable",
+                "give component.variable",
+            )
         if name in sampled:
             problem = "the campaign draws it in every trial"
             raise InputError(SINGLE, f"{name}={text}", problem, "leave it out, or change the campaign")
         if campaign.requirements:
-            problem = "a sweep, and the campaign has requirements, whose verdicts need independent trials"
+            problem = "the campaign has requirements, whose verdicts need independent trials"
             raise InputError(SINGLE, f"{name}={text}", problem, "sweep a campaign without them")
     swept = replace(
         campaign,
@@ -83,7 +88,9 @@ def _values(name: str, text: str) -> tuple[float, ...]:
     steps = (high - low) / step + STEP_ROUNDING
     GRID_POINTS.check(steps, SINGLE, place)
     if steps < 1.0:
-        raise InputError(SINGLE, place, f"the step {step:g} leaves low = {low:g} only", "give a shorter step")
+        raise InputError(
+            SINGLE, place, f"the step {step:g} reaches no value beyond low = {low:g}", "give a shorter step"
+        )
     return tuple(low + k * step for k in range(math.floor(steps) + 1))
 
 

@@ -116,7 +116,7 @@ def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
     columns = {name: _numbers(path, table, name) for name in (*sampled, *stream_columns)}
     for name in stream_columns:
         if np.any((columns[name] < 0.0) | (columns[name] > TRIALS.limit) | (columns[name] != np.round(columns[name]))):
-            raise InputError(path, name, "not all are numbers of trials", "give whole numbers, 0 or more")
+            raise InputError(path, name, "not all values are trial numbers", "give whole numbers, 0 or more")
     return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
 
 
@@ -128,12 +128,12 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) 
     numbers = (pyarrow.types.is_integer, pyarrow.types.is_floating, pyarrow.types.is_boolean)
     for name in sampled:
         if name not in schema.names:
-            raise InputError(path, name, "is drawn, and no column has it", "add the column")
+            raise InputError(path, name, "is drawn, but the file has no such column", "add the column")
     for name, count in Counter(schema.names).items():
         known = [*sampled, *campaign.derived, *(lookup.name for lookup in campaign.lookups)]
         if stream_component(name) is None and name not in (TRIAL, *known):
             remedy = suggestion(name, [*known, STREAMS])
-            raise InputError(path, name, f"{campaign.file} draws and derives no such value", remedy)
+            raise InputError(path, name, f"{campaign.file} neither draws nor derives this value", remedy)
         if count > 1:
             raise InputError(path, name, "two columns of this name", "leave one of them out")
         if not any(is_of(schema.field(name).type) for is_of in numbers):

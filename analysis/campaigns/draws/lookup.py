@@ -23,7 +23,7 @@ from .declared import Formula
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # hexadecimal digits of SHA-256
 MADE_BY, INPUT = "# made by: ", "# input: "
-WRITE = "write it again; perilune design bounds writes that of [lookup.bound]"
+WRITE = "write it again; perilune design bounds writes the table of [lookup.bound]"
 
 InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
 
@@ -55,7 +55,7 @@ class LookupTable:
     @property
     def remedy(self) -> str:
         """Remedy if the table was computed for other trials than the campaign's."""
-        return f"make it again: {self.command}" if self.command else WRITE
+        return f"write it again: {self.command}" if self.command else WRITE
 
     def write(self, decimals: Mapping[str, int]) -> bytes:
         """Return the table as CSV, with ``decimals`` of each column."""
@@ -135,7 +135,7 @@ class Lookup:
         """Return the numbers of consecutive trials. Raises InputError if the table has fewer trials."""
         rows = len(self.table.hashes)
         if trials.stop > rows:
-            problem = f"{rows} trials, and the campaign has {trials.stop} or more"
+            problem = f"has {rows} trials, but the campaign has {trials.stop} or more"
             raise InputError(self.label, "", problem, f"give `trials` {rows} at most, or {self.table.remedy}")
         return self.table.columns[self.column][trials.start : trials.stop]
 
@@ -150,10 +150,10 @@ class Lookup:
         """Reject a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
         different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
         if different:
-            problem = f"made with, or without, {', '.join(different)}, unlike [{self.element}.inputs]"
+            problem = f"{', '.join(different)}: in only one of the table and [{self.element}.inputs]"
             raise InputError(self.label, "input", problem, self.table.remedy)
         hashes = self.table.hashes[trials.start : trials.stop]
         for trial, made, actual in zip(trials, hashes, input_hashes(columns), strict=True):
             if made != actual:
-                problem = f"made for other inputs ({', '.join(self.inputs)}) than {variant} has"
+                problem = f"computed for other inputs ({', '.join(self.inputs)}) than those of {variant}"
                 raise InputError(self.label, f"trial {trial}", problem, self.table.remedy)

@@ -77,7 +77,9 @@ def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
     if trials > TABLE_TRIALS.limit:
         problem = f"{trials} trials, of {TABLE_TRIALS.limit:.0f} at most that are drawn as one table"
-        raise InputError(file, "trials", problem, 'give fewer, or write draw_scheme = "counter", and other draws fly')
+        raise InputError(
+            file, "trials", problem, 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
+        )
     ordered = sorted(campaign.draws, key=lambda draw: draw.names)
     designs = [kind.design(draws, trials, seed, file) for kind, draws in designs_of(ordered).items()]
     sources = [(*pair, generator(seed, stream_of(pair[0]))) for pair in independent_draws(ordered)]
@@ -123,9 +125,8 @@ class CountedDraws:
     def __init__(self, campaign: CampaignDraws) -> None:
         for draw in campaign.draws:
             if isinstance(draw.distribution, Design) and not draw.distribution.is_periodic:
-                problem = (
-                    f"a {draw.distribution.keyword} is a design of all trials, which a counter does not have at once"
-                )
+                kind = draw.distribution.keyword
+                problem = f'a {kind} needs all trials at once, which draw_scheme = "counter" does not draw'
                 remedy = 'use "uniform", or draw_scheme = "table"'
                 raise InputError(campaign.file, f"draw.{draw.name}", problem, remedy)
         self._campaign = campaign

@@ -115,9 +115,7 @@ class LoadedCampaign:
         functions.
         """
         if self.manifest.elementary_functions != VERSION:
-            problem = (
-                f"{self.manifest.elementary_functions}, this perilune has {VERSION}: other last bits in one campaign"
-            )
+            problem = f"{self.manifest.elementary_functions}, this perilune has {VERSION}: the last bits would differ"
             remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
             raise InputError(self.named or FILE, "elementary_functions", problem, remedy)
         wanted = set(shards)
@@ -143,7 +141,7 @@ def open_campaign(
     not this process.
     """
     if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
-        problem = f"{elsewhere} compile steps where that pays, and do not know of the option"
+        problem = f"{elsewhere} choose themselves whether to compile steps, and have no such option"
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     count = worker_count(workers)
     systems = check_plan(plan)

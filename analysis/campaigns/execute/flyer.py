@@ -163,7 +163,9 @@ class Flyer:
         if result.status == NONFINITE and self.plan.campaign.record.traces == "none":
             read = self._fly_recorded(variant, prepared, trial, names, {*names.signals, *names.statuses})
             if read.status != NONFINITE:
-                self._warn_once(variant, f"trial {trial}: {result.message}; the campaign does not read it: left out")
+                self._warn_once(
+                    variant, f"trial {trial}: {result.message}; omitted, since the campaign does not use it"
+                )
                 result = read
         return result, self._look_at(result, trial, names)
 
@@ -202,7 +204,9 @@ class Flyer:
             if self._is_to_be_repeated(simulation, flight):
                 first, flight = flight.message, run(simulation, parameters, self.plan.watch.timeout)
                 if flight.status not in LOST:
-                    self._warn_once(variant, f"trial {trial}: {first}; not so in a new process, which counts")
+                    self._warn_once(
+                        variant, f"trial {trial}: {first}; not repeated in a new process, whose result is used"
+                    )
             return flight
         except StuckError as error:  # its instances are lost: the next trial has new ones
             del self._ready[variant]

@@ -35,10 +35,10 @@ def resume_folder(
     manifest = replace(manifest, shard_size=held.shard_size)  # determined by fewer trials
     difference = differences(held, manifest)
     if difference:
-        problem = f"another campaign than the one asked for: {difference}"
-        raise InputError(folder / FILE, "", problem, "resume with what it began with, or give another `output`")
+        problem = f"holds another campaign: {difference}"
+        raise InputError(folder / FILE, "", problem, "resume with the original options, or give another `output`")
     if manifest.trials < held.trials:
-        problem = f"holds a campaign of {held.trials} trials, {manifest.trials} are asked for"
+        problem = f"holds a campaign of {held.trials} trials, not {manifest.trials}"
         raise InputError(folder / FILE, "trials", problem, f"give `trials` {held.trials} or more")
     if not plan.is_counted:
         _check_draws(folder, held, plan)
@@ -60,7 +60,7 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
         for name in names:
             if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
                 problem = f"{plan.campaign.trials} trials draw other values of {name} in the first {held.trials}"
-                raise InputError(folder / DRAWS, name, f"{problem}, as designs do", "fly them into another `output`")
+                raise InputError(folder / DRAWS, name, problem, "write them to another `output`")
         first += part.trials
         if first >= held.trials:
             return

@@ -211,7 +211,7 @@ def _restore_campaign(source: CampaignSource, manifest: CampaignManifest, folder
     campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
     if not campaign.variants():
         raise InputError(
-            folder / FILE, "campaign", "it compares nothing, or has selected no variant of it", SAME_VERSION
+            folder / FILE, "campaign", "the manifest has neither a comparison nor a selected variant", SAME_VERSION
         )
     return campaign
 

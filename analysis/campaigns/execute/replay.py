@@ -127,7 +127,7 @@ def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> Tria
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
     """Return the bitwise differences between two results of one trial, a phrase each."""
     if flown.status in CUT_OFF:
-        return (f"status {stored.status!r} is stored, {flown.status!r} was flown: the rest is not compared",)
+        return (f"status {stored.status!r} is stored, {flown.status!r} was simulated: other results are not compared",)
     pairs: dict[str, tuple[object, object]] = {
         "status": (stored.status, flown.status),
         "success": (stored.success, flown.success),
@@ -135,7 +135,7 @@ def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
     }
     pairs |= {name: (value, flown.metrics[name]) for name, value in stored.metrics.items()}
     return tuple(
-        f"{name} {before!r} is stored, {now!r} was flown"
+        f"{name} {before!r} is stored, {now!r} was simulated"
         for name, (before, now) in pairs.items()
         if not _same(before, now)
     )

@@ -53,7 +53,7 @@ def merge_rows(campaign: LoadedCampaign) -> Mapping[str, TrialTable]:
     decision = _decision(campaign, missing)
     if missing and not decision.is_decided:
         count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
-        remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
+        remedy = f"perilune shard {campaign.folder} {spans(missing)} simulates them"
         raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
     return _rows(campaign, campaign.store(), decision)
 

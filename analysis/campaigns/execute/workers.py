@@ -35,10 +35,10 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
     if engine not in ENGINES:
         raise InputError("`engine`", engine, "unknown", suggestion(engine, ENGINES))
     if engine == "threads" and foreign:
-        problem = "FMUs that Perilune has not built fly in processes of their own"
+        problem = "FMUs not built by Perilune run in separate processes"
         raise InputError("`engine`", engine, problem, "use processes, or `in_process` where you trust them")
     if engine == "threads" and not can:
-        problem = "Python FMUs, and those of which a process can hold one instance, do not fly in threads"
+        problem = "Python FMUs, and FMUs limited to one instance per process, cannot run in threads"
         raise InputError("`engine`", engine, problem, "use processes, or native FMUs")
     return engine == "threads"
 

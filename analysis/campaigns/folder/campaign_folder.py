@@ -89,7 +89,7 @@ class CampaignFolder:
         """
         shards = tuple(self._all_shards() if self.is_complete else map(self._find, self._paths))
         if not shards:
-            raise InputError(self.folder, FOLDER, "no shard is flown yet", "open it again when one is")
+            raise InputError(self.folder, FOLDER, "no shard is complete yet", "open it again when a shard is complete")
         return shards
 
     @property
@@ -127,13 +127,13 @@ class CampaignFolder:
         shard.
         """
         if not isinstance(about, dict) or about.get("batch") != self.batch:
-            raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
+            raise InputError(path, "", f"belongs to another batch than {whose}", NEW_FOLDER)
         if about.get("shard") != int(path.stem):
-            raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
+            raise InputError(path, "", "its contents are not those of the shard in its name", NEW_FOLDER)
         match about.get("trials"):
             case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
                 return range(first, stop)
-        raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)
+        raise InputError(path, "trials", "its trials are not those of one shard", NEW_FOLDER)
 
     def _about(self, number: int, trials: range) -> dict[str, object]:
         return {"batch": self.batch, "shard": number, "trials": [trials.start, trials.stop]}
@@ -186,7 +186,7 @@ class CampaignFolder:
                 raise InputError(shard.path, name, "no such column", NEW_FOLDER)
         for name in schema.names:
             if name.startswith("metric.") and name not in metrics:
-                raise InputError(shard.path, name, "no metric of the campaign", NEW_FOLDER)
+                raise InputError(shard.path, name, "not a metric of the campaign", NEW_FOLDER)
         return schema
 
     def traces(self, variant: str) -> dict[int, Path]:

@@ -44,7 +44,7 @@ def _lock(folder: Path, alone: bool) -> Iterator[None]:
             problem = "another process simulates this campaign" if alone else "another process replaces this campaign"
             raise InputError(folder, "", problem, "wait until it has ended, or give another folder") from None
         except sqlite3.OperationalError as error:
-            warnings.warn(f"{folder} cannot be locked ({error}): do not overwrite it from elsewhere", stacklevel=4)
+            warnings.warn(f"{folder} cannot be locked ({error}): do not write to it from another process", stacklevel=4)
         except (OSError, ValueError, sqlite3.Error) as error:
             raise InputError(path, "", f"cannot be locked: {error}", "remove it") from error
         yield

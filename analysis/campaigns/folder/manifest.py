@@ -139,7 +139,7 @@ def read_manifest(folder: Path) -> CampaignManifest:
     """Return the manifest in a folder, which is untrusted. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
-    check_folders(folder, "put a folder in its place")
+    check_folders(folder, "replace it with a folder")
     try:
         document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
         manifest = msgspec.json.decode(content, type=CampaignManifest)
@@ -163,7 +163,7 @@ def _check_manifest(manifest: CampaignManifest, path: Path) -> None:
             raise InputError(path, name, f"{number}, not a positive number", SAME_VERSION)
     for name in manifest.names():
         if not NAMED.fullmatch(name) or "/" in name or "\\" in name:
-            raise InputError(path, name, "not the name of a content: its SHA-256", SAME_VERSION)
+            raise InputError(path, name, "not a SHA-256", SAME_VERSION)
     fmu = manifest.system["fmu"]
     if fmu is not None and fmu not in manifest.system["files"]:
         raise InputError(path, "system.fmu", f"no file {fmu} of the system", SAME_VERSION)
@@ -196,5 +196,5 @@ def content_path(folder: Path, name: str) -> Path:
     path = folder / name
     content = read_regular(path, COPY_AGAIN, INPUT_BYTES.limit)
     if content_name(content, path.suffix) != name:
-        raise InputError(path, "", "its content is not the one that it is named by", COPY_AGAIN)
+        raise InputError(path, "", "its SHA-256 does not match its name", COPY_AGAIN)
     return path

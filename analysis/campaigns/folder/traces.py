@@ -24,12 +24,14 @@ def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | 
     are no traces, InputError for a damaged one.
     """
     if find_spec("xarray") is None:
-        raise ImportError("traces needs xarray, which is not here; pip install 'perilune[notebook]'")
+        raise ImportError("traces needs xarray, which is not installed; pip install 'perilune[notebook]'")
     from xarray import Dataset
 
     paths = _paths(results, variant)
     if not paths:
-        raise KeyError(f"no trace of {variant} in {results.folder}; a campaign keeps them by [record]")
+        raise KeyError(
+            f"no trace of {variant} in {results.folder}; a campaign stores traces if it has a table [record]"
+        )
     times = [_columns(path, [TIME])[TIME] for path in paths.values()]
     grid = np.unique(np.concatenate(times))
     known = [name for name in read_table(next(iter(paths.values()))).column_names if name != TIME]

@@ -59,12 +59,14 @@ def place_derivative(
     inputs = input_matrix(b, len(state))
     spectrum = Spectrum.of(poles, len(state))
     if not np.all(spectrum.poles):
-        raise InputError("modal", "poles", "one is 0, which no derivative shows", "give poles other than 0")
+        raise InputError(
+            "modal", "poles", "a pole is 0, which derivative feedback cannot place", "give poles other than 0"
+        )
     sizes = np.linalg.svd(state, compute_uv=False)
     if not sizes[-1] > TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
         problem = f"A is singular: its singular values go down to {ratio:.2g} of the largest"
-        remedy = "place by the state, or leave out the states at rest, whose derivative says nothing of them"
+        remedy = "use state feedback, or remove the states that are constant at rest"
         raise PlacementError("derivative feedback", Reason.SINGULAR, problem, ratio, remedy)
     back = np.linalg.inv(state)
     dual = place(back, back @ inputs, 1.0 / spectrum.poles, **options)

@@ -94,13 +94,13 @@ def output_feedback_upper(
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
     spectrum = Spectrum.of(poles, len(state))
     if starts < 1:
-        raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
+        raise InputError("modal", "starts", f"{starts} starts", "give 1 or more")
     n, m, p = len(state), inputs.shape[1], len(outputs)
     if m * p < n:
         problem = f"n, m, p = {n}, {m}, {p}: F has m p = {m * p} elements for n poles"
-        raise PlacementError(ROUTINE, Reason.CLASS, problem, float(m * p), "measure more, or take an observer")
+        raise PlacementError(ROUTINE, Reason.CLASS, problem, float(m * p), "measure more outputs, or use an observer")
     if m == n or p == n:
-        raise InputError("modal", "C" if p == n else "B", "there are no upper levels", "take output_feedback")
+        raise InputError("modal", "C" if p == n else "B", "there are no upper levels", "use output_feedback")
     high, low = _distribute(spectrum, n - m, upper)
     family = UpperLevels(ZerothLevel(state, inputs, outputs), high)
     random = np.random.default_rng(seed)
@@ -159,6 +159,6 @@ def _solve(family: UpperLevels, lower: Spectrum, draws: Iterator[np.ndarray], st
         placed = polish(replace(feedback, method=ROUTINE, levels=first.levels), level.a, level.b, level.c)
         if placed.error <= _PLACED * placed.kappa * float(np.linalg.norm(placed.closed_loop, 2)):
             return placed
-    problem = f"of {starts} starts the nearest leaves {nearest:.2g} of the equations of the zeroth level"
-    remedy = "give more starts, name other upper poles, or measure more"
+    problem = f"the best of {starts} starts has a residual {nearest:.2g} of the equations of the zeroth level"
+    remedy = "give more starts, name other upper poles, or measure more outputs"
     raise PlacementError(ROUTINE, Reason.RESIDUAL, problem, nearest, remedy)

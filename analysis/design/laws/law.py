@@ -144,11 +144,11 @@ def _wrong(row: int, column: int, entry: object) -> tuple[str, str] | None:
         return (f"{entry} below the diagonal", "write 0: the matrix is upper triangular") if entry else None
     if row == column:
         known = ", ".join(map(str, BINARY_OPERATIONS))
-        return None if entry in BINARY_OPERATIONS else (f"{entry} is no binary operation", f"use one of {known}")
+        return None if entry in BINARY_OPERATIONS else (f"{entry} is not a binary operation", f"use one of {known}")
     if entry == 0 or entry in UNARY_OPERATIONS:
         return None
     known = ", ".join(map(str, UNARY_OPERATIONS))
-    return f"{entry} is no unary operation", f"use 0 for no edge, or one of {known}"
+    return f"{entry} is not a unary operation", f"use 0 for no edge, or one of {known}"
 
 
 def _parameters(values: object, file: str) -> tuple[float, ...]:
@@ -171,7 +171,7 @@ def _pairs(pairs: Sequence[tuple[str, object]]) -> dict[str, object]:
 
 
 def _refuse_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number")
+    raise ValueError(f"{text} is not a number")
 
 
 def law_parameters(law: NetworkOperator, component: str) -> dict[str, int | float]:

@@ -52,7 +52,7 @@ def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
     except (TypeError, ValueError):
         raise InputError("`utc`", repr(utc), "not a date and time of ISO 8601", remedy) from None
     if time.tzinfo is None:
-        raise InputError("`utc`", repr(utc), "without a zone", remedy)
+        raise InputError("`utc`", repr(utc), "without a time zone", remedy)
     if leap_seconds is None:
         if time < LEAP_SECONDS_START:
             raise InputError("`utc`", repr(utc), "before 2017", "give `leap_seconds`, TAI - UTC in s at that time")
@@ -107,7 +107,9 @@ def orbit(
     numbers = (semi_major_axis, eccentricity, inclination, node, argument_of_perigee, true_anomaly, mu)
     for name, number in zip(ELEMENTS, numbers, strict=True):
         if isinstance(number, bool) or not isinstance(number, int | float | np.number) or not math.isfinite(number):
-            raise InputError(f"`{name}`", repr(number), "not a finite number", "give one in SI units, angles in rad")
+            raise InputError(
+                f"`{name}`", repr(number), "not a finite number", "give a number in SI units, angles in rad"
+            )
     if not mu > 0.0:
         raise InputError("`mu`", repr(mu), "not above 0", "give the body's gravitational parameter in m3/s2")
     if eccentricity < 0.0 or eccentricity == 1.0:
@@ -116,7 +118,7 @@ def orbit(
         )
     parameter = semi_major_axis * (1.0 - eccentricity) * (1.0 + eccentricity)  # semi-latus rectum
     if not parameter > 0.0:
-        sign = "above 0, as of an ellipse" if eccentricity < 1.0 else "below 0, as of a hyperbola"
+        sign = "above 0, as an ellipse needs" if eccentricity < 1.0 else "below 0, as a hyperbola needs"
         raise InputError("`semi_major_axis`", repr(semi_major_axis), f"not {sign}", "change it or `eccentricity`")
     cosine, sine = math.cos(true_anomaly), math.sin(true_anomaly)
     if not 1.0 + eccentricity * cosine > 0.0:

@@ -54,10 +54,10 @@ def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOL
         chains = going
     if basis.shape[1] < states:
         problem = (
-            f"{states - basis.shape[1]} of {states} states are not reached: of what was left out at most {left_out:.2g}"
-            f" was new, less than {tolerance:g}"
+            f"{states - basis.shape[1]} of {states} states are not controllable: "
+            f"vectors left out add at most {left_out:.2g} to the others, less than {tolerance:g}"
         )
-        remedy = "leave these states out, or add an input"
+        remedy = "remove these states, or add an input"
         raise PlacementError("controllability indices", Reason.NOT_CONTROLLABLE, problem, left_out, remedy)
     return tuple(indices)
 

@@ -167,8 +167,8 @@ def family_of(
     rank = levels[0].rank
     maximum = max(np.unique(spectrum.poles, return_counts=True)[1])
     if maximum > rank:
-        problem = f"a pole is wanted {maximum} times and B has rank {rank}: there is no full set of eigenvectors"
-        raise PlacementError("free eigenvectors", Reason.RANK, problem, float(maximum), "take choice diagonal")
+        problem = f"a pole is required {maximum} times and B has rank {rank}: no full set of eigenvectors exists"
+        raise PlacementError("free eigenvectors", Reason.RANK, problem, float(maximum), "use choice diagonal")
     return levels, Eigenvectors(levels[0], spectrum)
 
 

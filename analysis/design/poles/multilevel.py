@@ -122,7 +122,7 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     if parts is None:
         ranks = ", ".join(str(level.rank) for level in levels)
         problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank {ranks}"
-        remedy = "take method indices, or choice least_condition or least_norm"
+        remedy = "use method indices, or choice least_condition or least_norm"
         raise PlacementError("multilevel placement", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return place_on_levels(levels, [part.matrix for part in parts], spectrum.poles)
 
@@ -134,9 +134,9 @@ def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> N
         return
     says = f"has {wanted} states where the rank is {rank}"
     if wanted == rank:
-        says = f"leaves out {outside:.2g} of what drives it"
+        says = f"leaves out {outside:.2g} of the states that drive it"
     problem = f"the basis of level {level} {says}"
-    remedy = "give a basis of what B drives, then one of what these states drive, and so on"
+    remedy = "give a basis of the states that B drives, then of the states that these drive, and so on"
     raise PlacementError(
         "multilevel placement", Reason.RANK, problem, float(wanted) if wanted != rank else outside, remedy
     )
@@ -148,5 +148,5 @@ def _unreachable(level: int, states: int, values: np.ndarray, scale: float, tole
         f"{states} states are left on level {level}, where the largest singular value left out is {largest:.2g}, "
         f"no more than {tolerance:g} of {scale:.2g}"
     )
-    remedy = "leave these states out, or add an input"
+    remedy = "remove these states, or add an input"
     return PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, largest, remedy)

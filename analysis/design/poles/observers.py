@@ -47,13 +47,11 @@ def reduced_observer(
     sizes = np.linalg.svd(outputs, compute_uv=False)
     if len(outputs) > len(state) or sizes[-1] <= TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
-        problem = (
-            f"C, {len(outputs)} by {len(state)}, has not full row rank: its singular values go down to {ratio:.2g}"
-        )
-        remedy = "leave out what other outputs say already"
+        problem = f"C, {len(outputs)} by {len(state)}, is rank deficient: its singular values go down to {ratio:.2g}"
+        remedy = "remove outputs that depend linearly on others"
         raise PlacementError("reduced observer", Reason.RANK, problem, ratio, remedy)
     if len(outputs) == len(state):
-        raise InputError("modal", "C", "it measures every state", "take x = C^-1 y")
+        raise InputError("modal", "C", "C measures every state, and no observer is needed", "use x = C^-1 y")
     hidden, inverse = null_space(outputs), np.linalg.pinv(outputs)
     own, seen = hidden.T @ state, outputs @ state
     dual = _dual(own @ hidden, seen @ hidden, poles, options)

@@ -58,15 +58,15 @@ def output_feedback(
     plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))
     spectrum = Spectrum.of(poles, len(state))
     if method not in (None, *DecomposedPlant):
-        raise InputError(
-            "modal", f"method {method!r}", "there is none of that name", suggestion(str(method), DecomposedPlant)
-        )
+        raise InputError("modal", f"method {method!r}", "unknown", suggestion(str(method), DecomposedPlant))
     if choice not in [*Spread]:
-        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Spread))
+        raise InputError("modal", f"choice {choice!r}", "unknown", suggestion(choice, Spread))
     if upper is not None and method is None:
-        raise InputError("modal", "upper", "how many there are depends on the method", "give method direct or dual")
+        raise InputError(
+            "modal", "upper", "the number of upper poles depends on the method", "give method direct or dual"
+        )
     if starts < 1:
-        raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
+        raise InputError("modal", "starts", f"{starts} starts", "give 1 or more")
     _check_class(len(state), plant[1].shape[1], len(plant[2]))
     refusals: list[PlacementError] = []
     placements = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
@@ -77,7 +77,7 @@ def output_feedback(
         problem = (
             f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
         )
-        remedy = "take the other method, or two real poles for a pair"
+        remedy = "use the other method, or two real poles for a pair"
         raise PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
@@ -118,5 +118,5 @@ def _check_class(states: int, inputs: int, outputs: int) -> None:
         (inputs * outputs, f"F has m p = {inputs * outputs} elements for n poles"),
     ):
         if number < states:
-            remedy = "measure more, or take an observer"
+            remedy = "measure more outputs, or use an observer"
             raise PlacementError("output feedback", Reason.CLASS, f"{sizes}: {problem}", number, remedy)

@@ -88,7 +88,7 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
     if hidden.shape[1] != len(state) - len(outputs):
         rank = len(state) - hidden.shape[1]
         problem = f"C of {len(outputs)} rows has rank {rank}"
-        remedy = "leave out what other outputs say already"
+        remedy = "remove outputs that depend linearly on others"
         raise PlacementError("set of output feedbacks", Reason.RANK, problem, rank, remedy)
     # [N] V C^perp = -T A^p C^perp, each row of [N] separately
     seen = stack @ hidden
@@ -125,14 +125,16 @@ def common_feedback(
     PlacementError with the residual if there is no such F.
     """
     if not len(plants):
-        raise InputError("modal", "plants", "there are none", "give a list of matrices A")
+        raise InputError("modal", "plants", "no plant", "give a list of matrices A")
     states = [state_matrix(plant) for plant in plants]
     inputs, outputs = input_matrix(b, len(states[0])), output_matrix(c, len(states[0]))
     size, order = inputs.shape[1], len(states[0])
     try:
         prescribed = np.array(wanted, dtype=float)
     except (TypeError, ValueError):
-        raise InputError("modal", "wanted", "it is no array of numbers", "give p matrices, nan for free") from None
+        raise InputError(
+            "modal", "wanted", "not an array of numbers", "give p matrices, with nan for free elements"
+        ) from None
     if any(len(state) != order for state in states) or order % size:
         raise InputError("modal", "plants", f"their sizes do not fit {size} inputs", "give n by n matrices, n = p m")
     if prescribed.shape != (order // size, size, size):
@@ -155,8 +157,10 @@ def common_feedback(
         closed_poles[:, i, free[i]] = solution[len(outputs) :].reshape(len(states), -1)
     residual = float(np.sqrt(left_over / sides)) if sides else 0.0
     if residual > _RESIDUAL:
-        problem = f"no F gives all {len(states)} plants what is prescribed: {residual:.2g} of the right side is left"
-        remedy = "prescribe less, or measure more"
+        problem = (
+            f"no F meets the prescription for all {len(states)} plants: a relative residual of {residual:.2g} remains"
+        )
+        remedy = "prescribe less, or measure more outputs"
         raise PlacementError("common output feedback", Reason.RESIDUAL, problem, residual, remedy)
     coefficients = np.array([split(row, size) for row in closed_poles])
     loops = [

@@ -75,19 +75,23 @@ def place(
     inputs = input_matrix(b, len(state))
     spectrum = Spectrum.of(poles, len(state))
     if method is not None and method not in METHODS:
-        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(method, METHODS))
+        raise InputError("modal", f"method {method!r}", "unknown", suggestion(method, METHODS))
     if choice not in [*FreedomUse]:
-        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, FreedomUse))
+        raise InputError("modal", f"choice {choice!r}", "unknown", suggestion(choice, FreedomUse))
     if choice != FreedomUse.DIAGONAL:
         if method not in (None, "multilevel"):
-            raise InputError("modal", f"choice {choice!r}", f"method {method} has none", "take method multilevel")
+            raise InputError(
+                "modal", f"choice {choice!r}", f"method {method} has no such option", "use method multilevel"
+            )
         if starts < 1:
-            raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
+            raise InputError("modal", "starts", f"{starts} starts", "give 1 or more")
         search = least_condition if choice == FreedomUse.LEAST_CONDITION else least_norm
         return search(state, inputs, spectrum, starts, seed, _above(tolerance))
     if method in _ONE_CLASS:
         if tolerance is not None:
-            raise InputError("modal", "tolerance", f"method {method} has none", "take method indices or multilevel")
+            raise InputError(
+                "modal", "tolerance", f"method {method} has no such option", "use method indices or multilevel"
+            )
         return _ONE_CLASS[method](state, inputs, spectrum)
     solver = _EVERY_PAIR[method] if method else make_placement
     return solver(state, inputs, spectrum, _above(tolerance))
@@ -131,9 +135,7 @@ def place_levels(
         )
     if len(matrices) != len(levels):
         ranks = ", ".join(str(level.rank) for level in levels)
-        raise InputError(
-            "modal", "matrices", f"there are {len(matrices)}", f"give one for each level, of sizes {ranks}"
-        )
+        raise InputError("modal", "matrices", f"{len(matrices)} matrices", f"give one for each level, of sizes {ranks}")
     sizes = [(level.rank, level.rank) for level in levels]
     wanted = [
         real_matrix(f"matrices[{i}]", phi, size) for i, (phi, size) in enumerate(zip(matrices, sizes, strict=True))
@@ -169,7 +171,7 @@ def _above(tolerance: float | None) -> float:
     if tolerance is None:
         return TOLERANCE
     if not 0.0 < tolerance < 1.0:
-        raise InputError("modal", "tolerance", f"it is {tolerance:g}", "give a number between 0 and 1")
+        raise InputError("modal", "tolerance", f"{tolerance:g}", "give a number between 0 and 1")
     return tolerance
 
 
@@ -179,4 +181,6 @@ def _whole(bases: Sequence[np.ndarray], states: int) -> np.ndarray:
         whole = np.hstack(bases)
         if np.max(np.abs(whole.T @ whole - np.eye(states))) <= _ORTHONORMAL:
             return whole
-    raise InputError("modal", "bases", "together they are no orthonormal basis of the state", "make them one")
+    raise InputError(
+        "modal", "bases", "together they are not an orthonormal basis of the state space", "orthonormalise them"
+    )

@@ -22,7 +22,7 @@ def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """Return B (n, m). Raises InputError."""
     matrix = real_matrix("B", value)
     if matrix.shape[0] != states or not matrix.size:
-        raise InputError("modal", "B", f"it is {_size(matrix)}, and A has {states} states", "give a row for each")
+        raise InputError("modal", "B", f"it is {_size(matrix)}, and A has {states} states", "give one row per state")
     return matrix
 
 
@@ -31,7 +31,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
     matrix = real_matrix("C", value)
     if matrix.shape[1] != states or not matrix.size:
         raise InputError(
-            "modal", "C", f"it is {_size(matrix)} where A has {states} states", "give a column for each state"
+            "modal", "C", f"it is {_size(matrix)} where A has {states} states", "give one column per state"
         )
     return matrix
 

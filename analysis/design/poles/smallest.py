@@ -55,7 +55,7 @@ def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, 
     apart = np.abs(wanted[:, None] - wanted[None, :]) + np.diag(np.full(len(wanted), np.inf))
     if not np.min(apart) > 0.0:
         raise PlacementError(
-            "output feedback", Reason.RANK, "poles are repeated: they have no derivative", 0.0, "take choice least_norm"
+            "output feedback", Reason.RANK, "repeated poles have no derivative", 0.0, "use choice least_norm"
         )
     starts = sorted(feedbacks, key=lambda one: one.norm)[:_STARTS]
     return min((_from(start, a, b, c) for start in starts), key=lambda one: one.norm)

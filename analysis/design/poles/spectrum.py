@@ -28,9 +28,9 @@ class Spectrum:
         """Return the spectrum of ``size`` poles. Raises InputError for another number, or unpaired complex poles."""
         values = np.asarray(poles)
         if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
-            raise InputError("modal", name, "they are no list of finite numbers", "give real or complex numbers")
+            raise InputError("modal", name, "not a list of finite numbers", "give real or complex numbers")
         if len(values) != size:
-            raise InputError("modal", name, f"there are {len(values)}", f"give {size}, repeated ones repeated")
+            raise InputError("modal", name, f"{len(values)} poles", f"give {size}, each as often as it is repeated")
         conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []
         for pole in [complex(pole) for pole in values if pole.imag > 0.0]:
@@ -84,7 +84,7 @@ class Spectrum:
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
             if _take(real if isinstance(pole, float) else pairs, pole) is None:
-                raise InputError("modal", "upper", f"{pole:g} is none of the poles", "name some of them")
+                raise InputError("modal", "upper", f"{pole:g} is not one of the poles", "name some of the poles")
         return Spectrum(tuple(real), tuple(pairs))
 
     def deal(self, sizes: Sequence[int]) -> list[Spectrum] | None:
@@ -154,4 +154,4 @@ def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
 
 
 def _alone(name: str, pole: complex) -> InputError:
-    return InputError("modal", name, f"{pole:g} has no conjugate", f"give {pole.conjugate():g}, too")
+    return InputError("modal", name, f"{pole:g} lacks its conjugate", f"give {pole.conjugate():g}, too")

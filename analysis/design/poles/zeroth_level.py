@@ -50,8 +50,8 @@ class ZerothLevel:
             sizes = np.linalg.svd(matrix, compute_uv=False)
             if len(sizes) < rank or sizes[-1] <= TOLERANCE * sizes[0]:
                 ratio = float(sizes[-1] / sizes[0]) if len(sizes) == rank and sizes[0] else 0.0
-                problem = f"{name} has not full rank: its singular values go down to {ratio:.2g} of the largest"
-                remedy = "leave out inputs or outputs that others stand for"
+                problem = f"{name} does not have full rank: its singular values go down to {ratio:.2g} of the largest"
+                remedy = "remove inputs or outputs that depend linearly on others"
                 raise PlacementError("output feedback", Reason.RANK, problem, ratio, remedy)
         self.a, self.b, self.c = a, b, c
         self.inverse, self.down = np.linalg.pinv(b), null_space(b.T).T if basis is None else basis.T
@@ -101,8 +101,8 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
     except PlacementError as error:
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise
-        problem = f"(Y X^+, Q) is not, of its dual {error.problem}"
-        remedy = "spread the poles in another way"
+        problem = f"(Y X^+, Q) is not observable: in its dual, {error.problem}"
+        remedy = "distribute the poles over the levels in another way"
         raise PlacementError("output feedback", Reason.NOT_OBSERVABLE, problem, error.number, remedy) from None
     feedback = level.feedback(inverse, own + z @ q, upper, lower, condition)
     return feedback if first is None else replace(feedback, levels=first.levels, condition_u=first.condition_u)
@@ -112,8 +112,10 @@ def condition_of(x: np.ndarray) -> float:
     """Return cond X; 1 without columns. Raises PlacementError if X does not have full column rank."""
     condition = float(np.linalg.cond(x)) if x.size else 1.0
     if not condition < 1.0 / TOLERANCE:
-        problem = f"X has not full column rank, cond X = {condition:.2g}"
-        raise PlacementError("output feedback", Reason.RANK, problem, condition, "spread the poles in another way")
+        problem = f"X does not have full column rank, cond X = {condition:.2g}"
+        raise PlacementError(
+            "output feedback", Reason.RANK, problem, condition, "distribute the poles over the levels in another way"
+        )
     return condition
 
 
@@ -136,7 +138,7 @@ def output_feedback_levels(
         off = max(np.abs(given.T @ given - np.eye(size)).max(), np.abs(given.T @ inputs).max() / np.abs(inputs).max())
         if off > _ORTHONORMAL:
             problem = f"its columns are not orthonormal with basis' B = 0, by {off:.2g}"
-            raise InputError("modal", "basis", problem, "take columns of the null space of B'")
+            raise InputError("modal", "basis", problem, "use columns of the null space of B'")
     level = ZerothLevel(state, inputs, outputs, given)
     wanted = real_matrix("upper", upper, (size, size))
     first = place_levels(*level.above, [wanted], bases=[np.eye(size)])
@@ -168,6 +170,6 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
             return polish(placed, level.a, level.b, level.c)
-    problem = f"m + p = n, and of {starts} starts the nearest leaves {minimum:.2g} of the polynomial"
-    remedy = "give more starts, spread the poles in another way, or measure more"
+    problem = f"m + p = n, and the best of {starts} starts has a residual {minimum:.2g} of the polynomial"
+    remedy = "give more starts, distribute the poles over the levels in another way, or measure more"
     raise PlacementError("output feedback", Reason.RESIDUAL, problem, minimum, remedy)

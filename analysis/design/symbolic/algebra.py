@@ -23,7 +23,7 @@ def sympy() -> ModuleType:
         return importlib.import_module("sympy")
     except ImportError as error:
         remedy = "pip install 'perilune[symbolic]'"
-        raise InputError("modal", "sympy", "formulas need it, and it is not installed", remedy) from error
+        raise InputError("modal", "sympy", "symbolic formulas need sympy, which is not installed", remedy) from error
 
 
 def exact(value: object) -> Expression:
@@ -40,7 +40,7 @@ def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (Non
         rows = value.tolist() if hasattr(value, "tolist") else value
         matrix = sp.Matrix([[exact(element) for element in row] for row in rows])
     except (TypeError, ValueError, sp.SympifyError):
-        raise InputError("modal", name, "it is no matrix of numbers and symbols", "give a list of rows") from None
+        raise InputError("modal", name, "not a matrix of numbers and symbols", "give a list of rows") from None
     for size, required, unit in zip(matrix.shape, shape, ("rows", "columns"), strict=True):
         if required is not None and size != required:
             raise InputError("modal", name, f"it has {size} {unit}", f"give {required}")

@@ -13,14 +13,14 @@ def last_symbol_rows(a: Symbols, b: Symbols, formula: str) -> Symbols:
     sp = sympy()
     states, inputs = b.shape
     if states % inputs:
-        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole"
-        raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "take method multilevel")
+        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not a whole number"
+        raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "use method multilevel")
     columns = sp.Matrix.hstack(*(row.T for row in powers(a.T, b.T, states // inputs - 1)))
     inverse = inverse_of(columns)
     if inverse is None:
         rank = columns.rank(iszerofunc=is_zero)
-        problem = f"U = [B AB ..] has the rank {rank} for {states} states"
-        remedy = "take method multilevel, which says if it is controllable"
+        problem = f"U = [B AB ..] has rank {rank} for {states} states"
+        remedy = "use method multilevel, which reports whether the plant is controllable"
         raise PlacementError(formula, Reason.CLASS, problem, float(rank), remedy)
     return inverse[states - inputs :, :]
 

@@ -53,7 +53,9 @@ class SymbolicGain:
         """
         missing = [name for name in self.names if name not in values]
         if missing:
-            raise InputError("modal", f"values of {self.letter}", f"{missing[0]} has none", "give one for each symbol")
+            raise InputError(
+                "modal", f"values of {self.letter}", f"{missing[0]} has no value", "give a value for each symbol"
+            )
         with mpmath.workdps(_DIGITS):
             evaluated = self._function(*(mpmath.mpf(float(values[name])) for name in self.names))
         return np.array(evaluated.tolist(), dtype=float)
@@ -97,12 +99,10 @@ def symbolic_gain(
     state = matrix_of("A", state, (state.rows, state.rows))
     inputs = matrix_of("B", b, (state.rows, None))
     if method not in [*SymbolicMethod]:
-        raise InputError(
-            "modal", f"method {method!r}", "there is none of that name", suggestion(method, SymbolicMethod)
-        )
+        raise InputError("modal", f"method {method!r}", "unknown", suggestion(method, SymbolicMethod))
     if method != SymbolicMethod.MULTILEVEL:
         if bases is not None:
-            raise InputError("modal", "bases", f"method {method} has none", "take method multilevel")
+            raise InputError("modal", "bases", f"method {method} has no such option", "use method multilevel")
         size = inputs.cols
         count = state.rows // size
         matrices = _matrices(required, [size] * count) or _polynomial(_poles(required, state.rows), count, size)
@@ -139,7 +139,9 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
         turn = sp.Matrix.hstack(*given)
         sizes = [basis.cols for basis in given]
         if turn.cols != a.rows or tidy(turn.T * turn) != sp.eye(a.rows):
-            raise InputError("modal", "bases", "together they are no orthonormal basis of the state", "make them one")
+            raise InputError(
+                "modal", "bases", "together they are not an orthonormal basis of the state space", "orthonormalise them"
+            )
     levels = symbolic_levels(tidy(turn.T * a * turn), tidy(turn.T * b), sizes)
     ranks = [level.rank for level in levels]
     matrices = _matrices(required, ranks)
@@ -155,7 +157,7 @@ def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | 
         return None
     if len(required) != len(sizes):
         text = ", ".join(map(str, sizes))
-        raise InputError("modal", "required", f"there are {len(required)} matrices", f"give those of sizes {text}")
+        raise InputError("modal", "required", f"{len(required)} matrices", f"give matrices of sizes {text}")
     return [
         matrix_of(f"required[{i}]", matrix, (size, size))
         for i, (matrix, size) in enumerate(zip(required, sizes, strict=True))
@@ -165,7 +167,7 @@ def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | 
 def _poles(required: Sequence[Any], states: int) -> list[Expression]:
     poles = [exact(pole) for pole in required]
     if len(poles) != states:
-        raise InputError("modal", "required", f"there are {len(poles)} poles", f"give {states}, repeated ones repeated")
+        raise InputError("modal", "required", f"{len(poles)} poles", f"give {states}, each as often as it is repeated")
     if any(pole.is_real is False for pole in poles):
         remedy = "give matrices, [[a, b], [-b, a]] for a pair a +- i b"
         raise InputError("modal", "required", "a pole is not real", remedy)

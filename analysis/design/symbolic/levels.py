@@ -39,15 +39,15 @@ def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) 
         rank = basis.cols
         if not rank:
             problem = f"{states} states are left on level {len(levels)}, which nothing drives"
-            remedy = "leave these states out, or add an input"
+            remedy = "remove these states, or add an input"
             raise PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, 0.0, remedy)
         if sizes is None:
             left = basis
             down = sp.Matrix([list(row) for row in left.T.nullspace(iszerofunc=is_zero)])
         else:
             if len(levels) >= len(sizes) or sizes[len(levels)] != rank or not b[rank:, :].is_zero_matrix:
-                problem = f"the basis of level {len(levels)} is not what drives it, of rank {rank}"
-                remedy = "give a basis of what B drives, then one of what these states drive, and so on"
+                problem = f"the basis of level {len(levels)} does not span the states that drive it, of rank {rank}"
+                remedy = "give a basis of the states that B drives, then of the states that these drive, and so on"
                 raise PlacementError("multilevel placement", Reason.RANK, problem, float(rank), remedy)
             left, down = sp.eye(states)[:, :rank], sp.eye(states)[rank:, :]
         inverse = left_inverse(left)

@@ -18,7 +18,7 @@ from .variations import Variation
 
 FORMAT, VERSION = "perilune-synthesis-checkpoint", 1
 CandidateEntry = tuple[int, Sequence[Sequence[int]], int, str]  # genes, key of the law
-REMEDY = "start anew in another folder"
+REMEDY = "start a new search in another folder"
 
 
 def write_checkpoint(path: Path, state: SearchState, facts: Mapping[str, object]) -> None:
@@ -36,7 +36,9 @@ def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
         stored = document["facts"]
         for name, value in facts.items():
             if name not in stored or stored[name] != json.loads(json.dumps(value)):
-                raise InputError(path, name, "not what the search began with", f"restore it, or {REMEDY}")
+                raise InputError(
+                    path, name, "differs from its value at the start of the search", f"restore it, or {REMEDY}"
+                )
         return state_of(document["state"])
     except FileNotFoundError as error:
         raise InputError(path, "", "not found", "leave out `resume` to begin") from error

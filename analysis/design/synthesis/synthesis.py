@@ -98,7 +98,9 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
         return None
     path = output / CHECKPOINT
     if path.exists() and not resume:
-        raise InputError(path, "", "there is a search here already", "give `resume` to go on, or another `output`")
+        raise InputError(
+            path, "", "the folder already holds a search", "give `resume` to continue it, or another `output`"
+        )
     return path
 
 
@@ -112,7 +114,7 @@ def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
         raise InputError(*where, f"no component {component} in the system", suggestion(component, fmus))
     for name in plan.overlaid:
         if name.removeprefix(f"{component}.") not in fmus[component].variables:
-            problem = f"{component} is flown by {fmus[component].name}, which has no parameter {name}"
+            problem = f"{component} is an FMU {fmus[component].name}, which has no parameter {name}"
             raise InputError(*where, problem, 'name the FMU of a network operator with fmu = "..."')
     prepared = check_plan(plan)[VARIANT]
     _rehearse(synthesis, plan)
@@ -127,7 +129,7 @@ def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
     finally:
         flyer.close()
     if result.message:
-        problem = f"the basic solution's first flight failed: {result.message}"
+        problem = f"the first simulation of the basic solution failed: {result.message}"
         raise InputError(plan.campaign.file, "trial 0", problem, "correct step, parameters or system")
 
 

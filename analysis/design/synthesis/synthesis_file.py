@@ -23,10 +23,10 @@ from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 
 OWN_KEYS = ("component", "fmu", "law", "step", "stop_time", "objectives")
 REFUSED = {  # tables of a campaign that a search does not permit, with the reason
-    "compare": "one law flies at a time",
-    "record": "nothing is kept of the flights",
-    "group": "a law is judged by all trials",
-    "requirement": "objectives judge a law",
+    "compare": "a synthesis evaluates one law at a time",
+    "record": "a synthesis stores no simulations",
+    "group": "a synthesis evaluates a law on all trials",
+    "requirement": "a synthesis judges a law by its objectives",
 }
 LIMITS: Mapping[str, tuple[float, float]] = {
     "population": (2, 5000),
@@ -84,7 +84,9 @@ def read_synthesis(path: Path) -> Synthesis:
         raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")
     for key, reason in REFUSED.items():
         if key in whole.content:
-            raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
+            raise whole.error(
+                key, f"not allowed here: {reason}", "remove it; perilune batch can simulate the law that was found"
+            )
     remainder = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
     campaign = parse_campaign(TomlTable(remainder, whole.file, origins=whole.origins, attached=whole.attached))
     table = whole.table(SYNTHESIS)
@@ -97,7 +99,9 @@ def read_synthesis(path: Path) -> Synthesis:
     _check_basic(basic, settings, law_path)
     for name in (*campaign.input_names(), *campaign.settings):
         if name in law_parameters(basic, component):
-            raise InputError(campaign.file, name, "a part of the law that is searched for", "do not draw or set it")
+            raise InputError(
+                campaign.file, name, "a parameter of the law, which the search sets", "do not draw or set it"
+            )
     return Synthesis(
         campaign=campaign,
         component=component,
@@ -125,7 +129,7 @@ def _settings(table: TomlTable) -> SearchSettings:
             raise table.error(name, f"{values[name]!r} is out of range", f"give {low:g} to {high:g}")
     if settings.elites >= settings.population:
         problem = f"{settings.elites} of a population of {settings.population}"
-        raise table.error("elites", problem, "leave room for one new candidate or more")
+        raise table.error("elites", problem, "leave room for at least one new candidate")
     if settings.coding.bits == 0:
         raise table.error("fraction_bits", "no bits at all for the parameters", "give integer_bits or fraction_bits")
     return settings
@@ -149,8 +153,8 @@ def _check_basic(law: NetworkOperator, settings: SearchSettings, path: Path) -> 
     """Reject a basic solution that the search cannot vary or encode."""
     for node in range(SOURCES, SIZE):
         if not edges_in(law.matrix, node) and (node in OUTPUTS or edges_out(law.matrix, node)):
-            problem = f"nothing leads to node {node + 1}"
-            raise InputError(path, "matrix", problem, "give it an edge, or none that leads on from it")
+            problem = f"no edge leads to node {node + 1}"
+            raise InputError(path, "matrix", problem, "add an edge to the node, or remove the edges from it")
     coding = settings.coding
     try:
         coding.encode(law.q)

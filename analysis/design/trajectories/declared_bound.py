@@ -71,7 +71,9 @@ class _BoundReader(AnnotationReader):
             roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
             name = roles["name"]
             if not name.isidentifier() or any(key.startswith(f"{name}.") for key in inputs):
-                raise self.refuse(piece, f"name {name!r} is taken or no word", "give each piece a word of its own")
+                raise self.refuse(
+                    piece, f"name {name!r} is used twice or not a word", "give each element a name of its own"
+                )
             for role in HOVER if is_hover else STOP:
                 inputs[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
             if is_hover:
@@ -103,13 +105,13 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
     arm = np.add(inputs["position"], (0.0, 0.0, values["moon_radius"]))
     away, distance = math.hypot(arm[0], arm[1]), float(np.linalg.norm(arm))
     if not away > 0.0:
-        raise InputError(file, "bound", "braking starts straight above the site", "start where it comes from")
+        raise InputError(file, "bound", "braking starts straight above the site", "start at a distance from the site")
     up, aside = arm / distance, np.array([-arm[1], arm[0], 0.0]) / away
     velocity = np.array(inputs["velocity"])
     towards = float(velocity @ np.cross(up, aside))
     if not (abs(velocity @ aside) <= ACROSS and towards > 0.0):
         problem = "the velocity at the start of braking is not towards the site"
-        raise InputError(file, "bound", problem, "give one in the plane of start and site")
+        raise InputError(file, "bound", problem, "give a velocity in the plane of start and site")
     vehicle = Vehicle(
         mass=values["mass"],
         dry_mass=values["dry_mass"],
@@ -142,7 +144,9 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
             continue
         mass, minimum, start, end = (values[f"{name}.{role}"] for role in HOVER)
         if not (start > end and mass > 0.0):
-            raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "fix the annotation")
+            raise InputError(
+                file, name, f"from {start:g} m to {end:g} m with {mass:g} kg is not a descent", "fix the annotation"
+            )
         radii = np.array([start, end]) + landing.radius
         gravity = float(np.mean(landing.gravitational_parameter / radii**2))
         lander = replace(vehicle, mass=mass, minimum_thrust=minimum)

@@ -25,7 +25,7 @@ def check_roles(sizes: Mapping[str, int], where: tuple[str, str]) -> None:
     file, element = where
     for name, size in sizes.items():
         if name not in SIZES:
-            raise InputError(file, f"{element}.{name}", "no input of a bound", suggestion(name, SIZES))
+            raise InputError(file, f"{element}.{name}", "not an input of a bound", suggestion(name, SIZES))
         if size != SIZES[name]:
             raise InputError(file, f"{element}.{name}", f"{size} numbers, not {SIZES[name]}", REMEDY)
     for name in (*VECTORS, *SCALARS):
@@ -47,14 +47,14 @@ def descent_problem(inputs: Mapping[str, Sequence[float]], where: tuple[str, str
             raise InputError(file, f"{element}.{name}", f"{number[name]:g} is not positive", REMEDY)
     for name in ANGLES:
         if name in inputs and not 0.0 < number[name] < math.pi / (2 if name == "glide_slope" else 1):
-            raise InputError(file, f"{element}.{name}", f"{number[name]:g} rad is no such angle", REMEDY)
+            raise InputError(file, f"{element}.{name}", f"{number[name]:g} rad is not a valid angle", REMEDY)
     if not 0.0 <= number["minimum_thrust"] < number["maximum_thrust"]:
         problem = f"{number['minimum_thrust']:g} N is negative, or not below the largest thrust"
         raise InputError(file, f"{element}.minimum_thrust", problem, REMEDY)
     position, velocity, target = (tuple(map(float, inputs[name])) for name in VECTORS)
     distance, full = math.dist(position, target), number["maximum_thrust"] / number["mass"]
     if not distance > 0.0:
-        raise InputError(file, f"{element}.target", "the descent starts there", REMEDY)
+        raise InputError(file, f"{element}.target", "equal to the start of the descent", REMEDY)
     descent = PointMassProblem(
         start_position=position,
         start_velocity=velocity,

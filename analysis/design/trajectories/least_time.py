@@ -47,4 +47,4 @@ def _bracket(problem: PointMassProblem) -> tuple[float, float]:
             best, minimum = index, fraction
         elif best is not None:
             return float(times[max(0, best - 1)]), float(time)
-    raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")
+    raise PlanError(f"bound: the vehicle cannot reach the target in any time from {times[0]:.3g} to {times[-1]:.3g} s")

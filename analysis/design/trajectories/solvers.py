@@ -27,4 +27,4 @@ def _solver(name: str, what: str) -> ModuleType:
         return importlib.import_module(name)
     except ImportError as error:
         remedy = "pip install 'perilune[plan]'"
-        raise InputError("plan", name, f"{what} needs it, and it is not installed", remedy) from error
+        raise InputError("plan", name, f"{what} needs this package, which is not installed", remedy) from error

@@ -66,7 +66,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     if bound.sha256 != digest(inputs):
         names = dict.fromkeys([*inputs, *bound.inputs])
         other = [name for name in names if bound.inputs.get(name) != inputs.get(name)]
-        return MissingBound(f"{PLACE} was made for another {', '.join(other)}; {remedy}")
+        return MissingBound(f"{PLACE} was computed for another {', '.join(other)}; {remedy}")
     return bound
 
 

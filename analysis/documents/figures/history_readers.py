@@ -135,5 +135,5 @@ def _arc(reader: SignalReader, element: etree._Element) -> Arc:
         raise reader.unfit(element, position.label, problem, "name a position")
     radius = reader.parameter(element, "radius")
     if not radius > 0.0:
-        raise reader.refuse(element, f"radius {element.get('radius')} is {radius:g}", "name that of the ground")
+        raise reader.refuse(element, f"radius {element.get('radius')} is {radius:g}", "name the radius of the ground")
     return Arc(position, radius)

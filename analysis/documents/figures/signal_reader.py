@@ -60,7 +60,7 @@ class SignalReader(AnnotationReader):
             raise self.unfit(element, name, f"{attribute} {name}: no such parameter", remedy)
         value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start_text)
         if fmu.variables[variable].type not in NUMBERS:
-            raise self.unfit(element, name, f"{attribute} {name} is no number", "name another parameter")
+            raise self.unfit(element, name, f"{attribute} {name} is not a number", "name another parameter")
         return float(value)
 
     def integer(self, element: etree._Element, attribute: str) -> int:

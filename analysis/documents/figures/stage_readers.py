@@ -89,7 +89,7 @@ def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int
         says = reader.attributes(part, ("value", "says"))["says"]
         value = reader.integer(part, "value")
         if value in meanings:
-            raise reader.refuse(part, f"value {value} is there twice", "say each status once")
+            raise reader.refuse(part, f"value {value} is there twice", "name each status once")
         meanings[value] = says
     return meanings
 

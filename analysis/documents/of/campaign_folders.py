@@ -15,7 +15,7 @@ def prepared_document(folder: Path, shards: int, shard_size: int) -> Document:
     simulate, merge = CommandLine(f"perilune shard {folder} 0-{last}"), CommandLine(f"perilune merge {folder}")
     nodes = [
         Text(f"written: {folder}, shards 0-{last}, {shard_size} trials each, the rest in the last"),
-        Text(["simulate them: ", simulate, ", in any parts; then: ", merge]),
+        Text(["simulate them: ", simulate, ", in any grouping; then: ", merge]),
     ]
     return Document("Prepared campaign", nodes, [], {"folder": str(folder), "shards": shards, "shard_size": shard_size})
 

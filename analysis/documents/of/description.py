@@ -57,7 +57,7 @@ def _slot(content: Mapping[str, Any]) -> list[Node]:
 
 def _component(content: Mapping[str, Any]) -> list[Node]:
     titled = [
-        ["compatible FMUs", ", ".join(content["fits"]) or "none of this repository"],
+        ["compatible FMUs", ", ".join(content["fits"]) or "none in this repository"],
         ["feedthrough", _feedthrough(content)],
     ]
     return [

@@ -53,7 +53,7 @@ def build_system_fmu(
     model = SystemModel(preparation.choices(), request.exposed, request.faulty)
     variables = Variables(model, defaults, {slot: list(map(candidate_name, each)) for slot, each in slots.items()})
     if not variables.declared:
-        problem = "has neither connectors nor parameters, so that its FMU would have no variable"
+        problem = "has neither connectors nor parameters, so its FMU would have no variables"
         raise InputError(model.network.file, "system", problem, "give `expose` with a signal")
     _check_names(variables.declared, model.network.file)
     name = _model_identifier(archive.name, model)
@@ -65,7 +65,7 @@ def build_system_fmu(
     for platform in platforms:
         library = build_library(sources, f"{name}.c", platform, CACHE, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
-    page = Related(PAGE, "document", "text/html", "what the system is, its variables, how to fly it")
+    page = Related(PAGE, "document", "text/html", "description of the system, its variables and its use")
     reference, related = record_reference(name, find_default_program(model.programs, defaults), variables.declared)
     write_zip(path, add_manifest({**files, **reference}, [page, *related]))
     note_own(path)
@@ -141,7 +141,7 @@ def _as_system_variable(variable: FmuVariable) -> SystemVariable:
 def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
     for name, count in Counter(each.name for each in declared).items():
         if count > 1:
-            raise InputError(file, name, "would be the name of two variables of the FMU", "rename one in the system")
+            raise InputError(file, name, "two variables of the FMU would have this name", "rename one in the system")
 
 
 def _model_identifier(system: str, model: SystemModel) -> str:

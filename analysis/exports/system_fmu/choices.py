@@ -51,7 +51,7 @@ class Preparation:
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):
-                remedy = "give each once, and files of one name other names"
+                remedy = "give each once, and rename files with the same name"
                 raise InputError("`slots`", f"{slot}={','.join(candidates)}", "two candidates have one name", remedy)
         count = 1
         for candidates in self.slots.values():
@@ -110,7 +110,7 @@ class Preparation:
         except InputError as error:
             file, remedy = error.file, error.remedy
             if "allow_unmatched" in remedy:
-                remedy = "correct it; of a slot write SLOT.CANDIDATE.PARAMETER" if self.slots else "correct it"
+                remedy = "correct it; for a slot write SLOT.CANDIDATE.PARAMETER" if self.slots else "correct it"
             if file == "`use`" and set(options.use.values()) - set(self.options.use.values()):
                 file = "`slots`"
             raise InputError(file, error.element, error.problem, remedy) from error
@@ -163,7 +163,7 @@ def _start_reached(network: Network, name: str) -> float | None:
 def check_type(network: Network, node: Node) -> None:
     """Reject a system connector of a type that blocks do not have. Raises InputError."""
     if node.type_name in TEXTS:
-        raise InputError(network.file, node.where, f"a {node.type_name}, which no block has", NOT_ONE)
+        raise InputError(network.file, node.where, f"of type {node.type_name}, which is not supported", NOT_ONE)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:
@@ -174,7 +174,7 @@ def system_connectors(network: Network, kind: str) -> list[str]:
 def _check(prepared: PreparedSystem) -> None:
     for component, fmu in prepared.network.fmus.items():
         if not (fmu.is_own and fmu.is_native and fmu.version == 2):
-            problem = f"its FMU {fmu.label} is not a native one of Perilune for FMI 2.0, whose C would be needed"
+            problem = f"its FMU {fmu.label} is not a native FMU of Perilune for FMI 2.0, whose C code is needed"
             raise InputError(prepared.network.file, component, problem, NOT_ONE)
 
 

@@ -120,7 +120,7 @@ def read_component_source(fmu: Fmu, name: str) -> BlockCode:
     main = sources.get(f"{fmu.description.coSimulation.modelIdentifier}.c", "")
     if "system_steps.h" in sources:
         problem = "is itself a system as one FMU"
-        raise InputError(fmu.label, "sources", problem, "nest the system in its place, or export this one as .ssp")
+        raise InputError(fmu.label, "sources", problem, "nest its system here instead, or export this system as .ssp")
     ours = read_wrapper(2)
     known = all(sources.get(header, "").encode() == ours[header] for header in SHARED)
     tables = TABLES.search(main)

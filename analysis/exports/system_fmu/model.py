@@ -170,10 +170,8 @@ class SystemModel:
             for layout in layouts
         }
         if len(kinds) > 1:
-            problem = f"{', '.join(kinds)}, as the candidates have it: one variable cannot stand for both"
-            raise InputError(
-                "`slots`", name, problem, "neither expose it nor give it a fault, or leave a candidate out"
-            )
+            problem = f"{', '.join(kinds)}, depending on the candidate: one variable cannot represent both"
+            raise InputError("`slots`", name, problem, "do not expose it or give it a fault, or remove a candidate")
 
     def _program(self, choice: SlotChoice) -> ChoiceProgram:
         prepared = choice.prepared
@@ -201,7 +199,7 @@ class SystemModel:
             error = None
             if name in self.network.description.system.connectors:
                 raise InputError(
-                    "`expose`", name, "a connector of the system, which the FMU has anyway", "leave it out"
+                    "`expose`", name, "a connector of the system, which is always a variable of the FMU", "leave it out"
                 )
             nodes = [choice.prepared.network.nodes.get(name) for choice in self.choices]
             if any(node is not None and node.component is None and "." in name for node in nodes):
@@ -216,7 +214,9 @@ class SystemModel:
                 raise InputError("`expose`", name, error.problem, error.remedy)
         for name in exposed:
             if any(self._is_parameter(choice.prepared.network, name) for choice in self.choices):
-                raise InputError("`expose`", name, "a parameter, which is one of the FMU anyway", "leave it out")
+                raise InputError(
+                    "`expose`", name, "a parameter, which is always a parameter of the FMU", "leave it out"
+                )
         return list(exposed)
 
     @staticmethod

@@ -53,7 +53,7 @@ def system_page(
         sets = ", ".join(file.removeprefix("resources/") for file in others.files)
         body.append(builder.P(f"resources/ has parameter sets of the system that are not applied: {sets}."))
     if others.unfit:
-        body.append(builder.P(f"Left out, since they do not fit: {'; '.join(others.unfit)}."))
+        body.append(builder.P(f"Omitted, since they do not fit: {'; '.join(others.unfit)}."))
     for causality, title in TITLES:
         variables = [each for each in declared if each.causality == causality]
         if variables:
@@ -66,8 +66,7 @@ def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -
     texts = [
         f"A communication step is {step:g} s or a multiple of it, of as many whole steps of the system, during which "
         "inputs are held; other steps are refused.",
-        "Once the system has come to its end, all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is "
-        "true.",
+        "Once the system has ended, all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is true.",
         "States are saved, restored and serialised whole. Instances are independent of one another.",
     ]
     if dependencies:

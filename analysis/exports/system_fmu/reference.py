@@ -49,7 +49,7 @@ def record_reference(
     ]
     experiment = Experiment(
         "outputs",
-        "outputs and exposed signals of the system flown from the FMUs of its components, bit by bit",
+        "outputs and exposed signals of the system simulated with the FMUs of its components, bit by bit",
         (columns[0][0], columns[0][-1]),
         prepared.step,
         OUTPUTS,

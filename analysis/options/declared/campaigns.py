@@ -242,7 +242,7 @@ MERGE = Verb(
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared": "a folder to share",
         "perilune shard shared 0-1": "all of its shards, on one machine or another",
-        "perilune merge shared --report merged.html": "what batch would have written",
+        "perilune merge shared --report merged.html": "the same files as batch writes",
     },
     not_met=OF_CAMPAIGN,
 )

@@ -164,7 +164,7 @@ DIFF = Verb(
 class DocsOptions(TypedDict, total=False):
     """Options of docs"""
 
-    print: Annotated[bool, Option("print the path of its first page, and open nothing", False)]
+    print: Annotated[bool, Option("print the path of the first page instead of opening it", False)]
 
 
 DOCS = Verb(
@@ -181,7 +181,9 @@ NEW_BLOCK = Verb(
     "write NAME.py, a template for your own block",
     (NAME, SLOT),
     function="new.new_block",
-    examples={"perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which runs as it is"},
+    examples={
+        "perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which can be simulated unchanged"
+    },
 )
 
 NEW_SYSTEM = Verb(

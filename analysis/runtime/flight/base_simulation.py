@@ -98,7 +98,7 @@ class BaseSimulation(ABC):
 
         Stops after a simulation that does not complete. Arrays are overwritten as in `fly`.
         """
-        raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
+        raise NotImplementedError(f"{type(self).__name__} runs one simulation at a time")
 
     def fuse(self) -> None:
         """Compile the steps into one function for later simulations, as with `FUSED`, if the system allows it."""

@@ -153,13 +153,13 @@ def in_words(
         given = parameters[parameters.keys[subject]]
         actual = parameters.value_in(buffers.read_back, confirmed, subject)
         words = f"{component}.{variable}: was set to {given}, and its FMU has {actual} after initialisation"
-        return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
+        return status, " | ".join([f"{words}: the FMU did not accept the value", *instances[component].messages])
     if code == codes.FAILED:
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"
         token = status_word(outcome.fmi_status)
         if outcome.is_discarded_step and instances[component].fmu.version == 2:
-            token += ", which is no wish to end,"
+            token += " without asking for termination"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {token} at t = {time:g} s: {log}"
     return status, ""
 
@@ -173,11 +173,11 @@ def ended_in_words(
     """
     allowed = load_library().perilune_time_allowance(begin, end)
     if not begin - allowed <= time <= end + allowed:  # also rejects NaN
-        words = "fmi2DoStep asked for the end by discard"
+        words = "fmi2DoStep asked for termination with status discard"
         return STATUS[codes.OUTSIDE_STEP], _outside_words(words, time, begin, end, subject, instances)
     component, instance = list(instances.items())[subject]
     said = f": {' | '.join(instance.messages)}" if instance.messages else ""
-    return TERMINATED, f"{component} asked for the end at t = {time:g} s{said}"
+    return TERMINATED, f"{component} asked for termination at t = {time:g} s{said}"
 
 
 def _outside_words(

@@ -165,12 +165,12 @@ def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
     """
     if fmu.external_state:
         names = ", ".join(fmu.external_state)
-        problem = f"{names} is external state, which cannot be saved or perturbed"
+        problem = f"{names} depends on state outside of the FMU, which cannot be saved or perturbed"
         raise InputError(fmu.label, component, problem, "measure by injection, or use another FMU")
     description = etree.parse(fmu.folder / "modelDescription.xml")
     declared = find_annotation(description.getroot(), "SerializedState")
     if declared is None or declared.get("encoding") not in ENCODINGS:
-        raise InputError(fmu.label, component, "does not tell how it serialises its memory", "measure by injection")
+        raise InputError(fmu.label, component, "does not document how it serialises its state", "measure by injection")
     return declared.get("encoding"), {int(item) for item in declared.get("frozen", "").split()}
 
 

@@ -51,7 +51,7 @@ ENDINGS = {
 def require_pandas() -> None:
     """Raise ImportError, with the command that installs it, if pandas is missing."""
     if find_spec("pandas") is None:
-        raise ImportError("to_pandas needs pandas, which is not here; pip install 'perilune[notebook]'")
+        raise ImportError("to_pandas needs pandas, which is not installed; pip install 'perilune[notebook]'")
 
 
 @dataclass(repr=False)

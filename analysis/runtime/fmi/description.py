@@ -127,7 +127,7 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
     for element, name in wanted:
         for text in element.get(name, "").split():
             if not (text.isascii() and text.isdigit() and len(text) < 11 and int(text) in known):
-                raise InputError(label, f"{_line_of(element)}, {name}", f"{text[:20]} is no value reference", FIX)
+                raise InputError(label, f"{_line_of(element)}, {name}", f"{text[:20]} is not a value reference", FIX)
     for element in root.iterfind("ModelVariables/*/Dimension"):
         start, reference = element.get("start"), element.get("valueReference")
         if start is not None:

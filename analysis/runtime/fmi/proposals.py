@@ -36,5 +36,5 @@ def _seconds(text: str | None, attribute: str, label: str, notes: list[str]) -> 
         problem = f"{text} is not a positive number of seconds"
         raise InputError(label, where, problem, f"fix the FMU's {DESCRIPTION}, or give `step`")
     if seconds == 0.0 and text is not None:
-        notes.append(f"{label}: {where}: {text} is no step, and taken as none")
+        notes.append(f"{label}: {where}: {text} is not a step size, and is ignored")
     return seconds or None

@@ -26,7 +26,7 @@ class Representation(NamedTuple):
 
     def complaint(self) -> str:
         """Return the predicate of the error message for a number out of range."""
-        return "has more than 32 bits" if self.name == "Int32" else f"is no {self.name}"
+        return "has more than 32 bits" if self.name == "Int32" else f"is not of type {self.name}"
 
     def demand(self) -> str:
         """Return the permitted integers as text, the object of a sentence."""

@@ -68,8 +68,8 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
     """
     main = sources.get(f"{model}.c", "")
     if WRAPPER not in main:
-        problem = "its C is not of the interface that is fused here"
-        raise InputError(label, "sources", problem, "export it again with this Perilune, or fly it `native`")
+        problem = "its C code has another interface than fused steps need"
+        raise InputError(label, "sources", problem, "export it again with this Perilune, or simulate it `native`")
     headers: set[str] = set()
     text = _include(main.replace(WRAPPER, NEEDED) + OFFSETS, sources, label, headers, set())
     return ComponentCode(prefix, _rename(text, prefix), frozenset(headers))

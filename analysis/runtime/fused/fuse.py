@@ -52,9 +52,9 @@ def fuse(
     components = _component_codes(instances)
     if not is_compilable(program):
         problem = (
-            f"the steps repeat after {len(program.phases) - 1} communication steps only, too many to be one function"
+            f"the steps repeat after {len(program.phases) - 1} communication steps only, too many for one function"
         )
-        raise InputError("`flavour`", FUSED, problem, "fly it `native`")
+        raise InputError("`flavour`", FUSED, problem, "simulate it `native`")
     library = _load(_compile(write_unit(program, recorded, components), is_wanted))
     _check_arithmetic(library)
     for number, instance in enumerate(instances.values()):
@@ -104,7 +104,7 @@ def _compile(text: str, is_wanted: Callable[[], bool]) -> Path:
     except CompilationFailed as error:
         lines = str(error).splitlines()
         problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
-        raise InputError("`flavour`", FUSED, problem, "fly it `native`") from error
+        raise InputError("`flavour`", FUSED, problem, "simulate it `native`") from error
     except OSError as error:
         problem = f"the library cannot be written: {error.filename or gettempdir()}: {reason_of(error)}"
         raise InputError("`flavour`", FUSED, problem, f"{remedy_of(error)}, or simulate it `native`") from error
@@ -116,8 +116,8 @@ def _load(file: Path) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(str(file))
     except OSError as error:
-        problem = f"the compiler wrote what is no library: {error}"
-        raise InputError("`flavour`", FUSED, problem, "mend the compiler, or fly it `native`") from error
+        problem = f"the compiler's output is not a library: {error}"
+        raise InputError("`flavour`", FUSED, problem, "repair the compiler, or simulate it `native`") from error
 
 
 def _check_arithmetic(library: ctypes.CDLL) -> None:
@@ -126,7 +126,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
     check.restype = ctypes.c_char_p
     problem = check()
     if problem is not None:
-        raise InputError("`flavour`", FUSED, problem.decode(), "fly it `native`")
+        raise InputError("`flavour`", FUSED, problem.decode(), "simulate it `native`")
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:
@@ -139,4 +139,4 @@ def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance)
         references = np.array([variable.reference], dtype=np.uint32)
         if instance.locate(references, variable.type) != instance.address + offset_of(variable.reference):
             problem = f"its C has {variable.name} at another address than its binary"
-            raise InputError(instance.fmu.label, "sources", problem, "export it again, or fly it `native`")
+            raise InputError(instance.fmu.label, "sources", problem, "export it again, or simulate it `native`")

@@ -8,8 +8,8 @@ from ...options.choices import FUSED
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 
-NO_COMPILER = "needs a C compiler, and there is none"
-INSTALL = "install cc, or pip install ziglang; or fly it `native`"
+NO_COMPILER = "needs a C compiler, and none is installed"
+INSTALL = "install cc, or pip install ziglang; or simulate it `native`"
 
 
 def has_code(fmu: Fmu) -> bool:

@@ -27,7 +27,7 @@ STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
 def status_word(status: int) -> str:
     """Return the name of an fmi2Status, also for numbers that FMI does not define."""
-    return STATUSES[status] if 0 <= status < len(STATUSES) else f"{status}, a status that FMI does not have"
+    return STATUSES[status] if 0 <= status < len(STATUSES) else f"{status}, which FMI does not define"
 
 
 class Log:
@@ -68,7 +68,7 @@ class Log:
         """Write how many messages were omitted."""
         for component, count in self._counts.items():
             if count > MOST_MESSAGES:
-                self.emit(f"{component}: and {count - MOST_MESSAGES} messages more")
+                self.emit(f"{component}: and {count - MOST_MESSAGES} more messages")
         self._counts = {}
 
     def write_line(self, line: str) -> None:
@@ -245,10 +245,10 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: boo
     if fmu.is_alone:
         with LOADING:
             if fmu.digest in _alone:
-                problem = (
-                    "can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess), which it is"
+                problem = "can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
+                raise InputError(
+                    fmu.label, name, problem, "simulate once at a time, or export the FMU for several instances"
                 )
-                raise InputError(fmu.label, name, problem, "fly it once at a time, or export it for more instances")
             _alone.add(fmu.digest)
     number = next(_instances)
     unique = f"{name}#{number}"

@@ -42,7 +42,7 @@ def reset_verdict(fmu: Fmu) -> ResetVerdict:
             store_verdict(fmu.digest, verdict)
         if verdict.needs_process and fmu.digest not in _noted:
             _noted.add(fmu.digest)
-            problem = f"simulations in this process depend on those before them: {verdict.reason}"
+            problem = f"a simulation in this process depends on earlier ones: {verdict.reason}"
             warnings.warn(f"{fmu.label}: {problem}; leave out `in_process`", stacklevel=2)
         return verdict
 
@@ -101,7 +101,7 @@ def _simulate_anew(fmu: Fmu, simulated: Callable[[str], None] = lambda digest: N
     _free(instance, failed)
     if failed is None:
         return _Simulation(rows)
-    failure = f"it cannot be tried on its declared starts: {_words(failed)}"
+    failure = f"its reset cannot be tested with its declared start values: {_words(failed)}"
     return _Simulation(rows, failure, is_usable=not _is_fatal(failed))
 
 
@@ -120,14 +120,14 @@ def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
             state = list(_simulate(used, {}))
         except FMICallException as error:
             _free(used, error)
-            return f"after a flight {_words(error)}", not _is_fatal(error)
+            return f"after a simulation {_words(error)}", not _is_fatal(error)
         _free(used)
         if state[:-1] != expected[:-1]:
-            return "after its reset it flies other than a fresh instance", True
+            return "after a reset its results differ from those of a fresh instance", True
         if state != expected:
-            return "after its reset parameters have other values than in a fresh instance", True
+            return "after a reset its parameters differ from those of a fresh instance", True
         return "", True
-    return "it cannot be tried: it flies only once", True
+    return "its reset cannot be tested: it can be simulated only once", True
 
 
 def _words(error: FMICallException) -> str:

@@ -42,7 +42,7 @@ def load_library() -> ctypes.CDLL:
     try:
         library = ctypes.CDLL(str(file if file.is_file() else _compile()))
     except OSError as error:
-        raise InputError("Perilune", str(file), f"is no library: {error}", "build or install it again") from error
+        raise InputError("Perilune", str(file), f"is not a library: {error}", "build or install it again") from error
     _check(library)
     library.perilune_fly.restype = library.perilune_fly_group.restype = ctypes.c_int64
     library.perilune_time_allowance.restype = ctypes.c_double
@@ -103,11 +103,11 @@ def _compile() -> Path:
         compilers_for(platform)
         (file,) = library_files(sources(), MAIN, platform, CACHE / FOLDER, flags=FLAGS)
     except CompilerMissing as error:
-        problem = "the loop that simulates systems is not built, and there is no C compiler"
+        problem = "the simulation loop is not built, and no C compiler is installed"
         raise InputError("Perilune", FOLDER, problem, "install cc, or pip install ziglang") from error
     except CompilationFailed as error:
-        problem = f"the compiler refuses the loop that simulates systems: {str(error).splitlines()[0]}"
-        raise InputError("Perilune", FOLDER, problem, "mend the compiler") from error
+        problem = f"the compiler refuses the simulation loop: {str(error).splitlines()[0]}"
+        raise InputError("Perilune", FOLDER, problem, "repair the compiler") from error
     return file
 
 

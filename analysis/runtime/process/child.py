@@ -110,7 +110,7 @@ def _copy_files(fmu: Fmu) -> Path:
         reason = (
             error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)
         )  # reason for the first file
-        problem, remedy = f"its files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
+        problem, remedy = f"the FMU's files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
         raise InputError(fmu.label, str(folder), problem, remedy) from error
 
 

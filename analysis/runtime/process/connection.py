@@ -20,7 +20,7 @@ from .children import Child
 
 POLL_PERIOD = 0.25  # s, between checks of a silent child
 FRAME_TIMEOUT = 10.0  # s, time between the bytes of an answer
-REPEAT = "simulate again, where memory ran out with fewer `workers`"
+REPEAT = "simulate again; if memory ran out, with fewer `workers`"
 PATIENCE = 1.5  # s, time for a child to free its instances
 
 
@@ -188,7 +188,7 @@ class ChildConnection:
         if ended is None:
             return ChildEndedError(CRASHED, "its process has ended")
         if ended.reason == messages.OVER_MEMORY_LIMIT:
-            return ChildEndedError(OUT_OF_MEMORY, "its process took more memory than it may")
+            return ChildEndedError(OUT_OF_MEMORY, "its process exceeded its memory limit")
         if ended.reason == messages.NEAR_MEMORY_LIMIT:
             how = f"its process ended {_in_words(ended.status)} near its memory limit"
             return ChildEndedError(OUT_OF_MEMORY, how)

@@ -42,7 +42,7 @@ class PrintedLines:
         if self._partial:
             self._write(self._partial)
         if self._lines > LINE_LIMIT:
-            self._print(f"... and {self._lines - LINE_LIMIT} lines more")
+            self._print(f"... and {self._lines - LINE_LIMIT} more lines")
 
     def _write(self, line: bytes) -> None:
         self._lines += 1

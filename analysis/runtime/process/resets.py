@@ -17,7 +17,7 @@ from .children import begin_child
 from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 
-DIFFERS = "a second process simulates it otherwise than the first"
+DIFFERS = "two processes simulate it with different results"
 _noted: set[str] = set()  # digests of FMUs
 
 
@@ -74,9 +74,9 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = No
         try:
             verdict = _Trials(fmu, options, watch or TrialWatch()).decide()
         except ChildEndedError as error:
-            problem = f"tried alone, with its declared values: {error.how}"
+            problem = f"tested alone, with its declared values: {error.how}"
             raise InputError(
-                fmu.label, fmu.name, problem, "mend it; perilune run --log info shows what it logs"
+                fmu.label, fmu.name, problem, "repair the FMU; perilune run --log info shows its messages"
             ) from None
         store_verdict(fmu.digest, verdict)
     return verdict
@@ -88,11 +88,11 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
         case Renewal.RESET:
             return None
         case Renewal.INSTANCE:
-            return f"{component}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"
+            return f"{component}: instantiated again for every simulation, since its reset fails: {verdict.reason}"
         case Renewal.PROCESS:
-            return f"{component}: a process for every simulation, as no other is like the first: {verdict.reason}"
+            return f"{component}: one process per simulation, since a second one in a process differs: {verdict.reason}"
         case Renewal.IRREPRODUCIBLE:
-            return f"{component}: simulations differ even in a process each, which every one has: {verdict.reason}"
+            return f"{component}: one process per simulation; even so, simulations differ: {verdict.reason}"
 
 
 def note_processes(prepared: PreparedSystem, cost: float) -> None:
@@ -151,7 +151,7 @@ class _Trials:
         except ChildEndedError as error:
             if not self._digest or self._watch.is_given_up:
                 raise
-            reason = f"when it was tried, {error.how}"
+            reason = f"when its reset was tested, {error.how}"
         finally:
             connection.close()
         renewal = self._try(with_reset=False).renewal if with_reset else Renewal.PROCESS

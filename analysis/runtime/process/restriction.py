@@ -63,7 +63,7 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
     missing = find_missing()
     if missing and options.trust["isolate"] == "strict":
         raise InputError(
-            "`isolate`", options.trust["isolate"], "; ".join(missing), "leave it out, or take another system"
+            "`isolate`", options.trust["isolate"], "; ".join(missing), "leave it out, or use another operating system"
         )
     if missing:
         warnings.warn(f"foreign FMUs are not restricted here: {'; '.join(missing)}", stacklevel=2)
@@ -78,7 +78,7 @@ def find_missing() -> tuple[str, ...]:
         return ("only Linux restricts processes",)
     missing = []
     if _landlock_version() < 1:
-        missing.append("no Landlock, so they can write wherever you can")
+        missing.append("no Landlock, so they can write wherever you can write")
     if not has_seccomp():
         missing.append("no seccomp filters, so they can use the network and reach your processes")
     return tuple(missing)

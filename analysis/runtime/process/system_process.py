@@ -24,7 +24,7 @@ from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
 
 RECORDERS = 2  # the caller reads one simulation while the next one runs
-SEE_LOG = "perilune run --log info shows what it logs"
+SEE_LOG = "perilune run --log info shows its messages"
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ class Fmi2Component(ComponentInstance):
                 raise
             time = self.slave.getRealStatus(fmi2LastSuccessfulTime)
             if not is_within(time, begin, end):
-                raise FailedError(f"{self.name} asked for the end at {time} s, outside of its step") from error
+                raise FailedError(f"{self.name} asked for termination at {time} s, outside of its step") from error
             raise TerminationError(self.name, time) from error
 
     def _set(self, variable: ScalarVariable, sample: Sample) -> None:

@@ -83,7 +83,7 @@ def feedthrough_of_component(component: etree._Element, file: str) -> bool | Non
     if not matches:
         return None
     if len(matches) > 1:
-        raise reader.refuse(matches[1], f"the second of type {FEEDTHROUGH}", "write one")
+        raise reader.refuse(matches[1], f"a second annotation of type {FEEDTHROUGH}", "write one")
     element = reader.content(matches[0], "Feedthrough")
     text = reader.attributes(element, ("direct",))["direct"]
     if text not in DIRECT:
@@ -108,7 +108,7 @@ def check_annotations(root: etree._Element, file: str) -> None:
             if kind == FEEDTHROUGH and tag(owner) != "Component":
                 raise InputError(file, place, f"type {kind} in a {tag(owner)}", "write it into a Component")
         elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
-            raise InputError(file, place, f"no annotation is of type {kind}", suggestion(kind, OURS))
+            raise InputError(file, place, f"no annotation has type {kind}", suggestion(kind, OURS))
 
 
 def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
@@ -117,6 +117,6 @@ def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
             continue  # a comment
         namespace = etree.QName(item).namespace
         if namespace != OURS[kind]:
-            actual = f"of the namespace {namespace}" if namespace else "of no namespace"
+            actual = f"in the namespace {namespace}" if namespace else "without a namespace"
             problem = f"{actual} in an annotation of type {kind}"
             raise InputError(file, f"{tag(item)} (line {item.sourceline})", problem, f'write xmlns="{OURS[kind]}"')

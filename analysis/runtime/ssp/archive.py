@@ -23,8 +23,8 @@ from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, SYSTEM_FILE, system_files
 
 HOW_TO_BUILD = (
-    "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
-) + "perilune export FILE.py those of your own"
+    "build_fmus.py builds the FMUs of this repository, " if IS_CHECKOUT else ""
+) + "perilune export FILE.py those of your blocks"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
 OSP_SUFFIX = ".xml"
 OTHER = "give another file"
@@ -135,7 +135,7 @@ class SystemArchive:
     def refuse_elsewhere(self, name: str, element: str) -> None:
         """Raise InputError if the system is in a campaign's folder, which must contain all of its files."""
         if self.known_digest is not None:
-            problem = f"{name} is not among the files that the campaign's folder holds"
+            problem = f"{name} is not among the files in the campaign's folder"
             raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
 
     def is_own_file(self, source: str) -> bool:
@@ -149,7 +149,7 @@ class SystemArchive:
     def description_name(self, variant: str | None) -> str:
         """Return the archive name of the SSD: the default one or a variant's."""
         if self.is_fmu:
-            raise InputError(self.label, DESCRIPTION, "an FMU alone has none", "give a system here")
+            raise InputError(self.label, DESCRIPTION, "an FMU alone has no SSD", "give a system")
         name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
         if name not in self.files:
             variants = self.variants()
@@ -213,7 +213,7 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
             other = path if path.is_absolute() else f"./{path}"
             warnings.warn(
                 f"{option} {name}: read from {label}; another file of this name, {path} in the working folder, is not: "
-                f"write {option} {other} for that one",
+                f"write {option} {other} to use that file",
                 stacklevel=4,
             )
             return
@@ -254,14 +254,14 @@ def open_system(system: str | Path) -> SystemArchive:
             raise InputError(text, "file", "not found", "give the path of an .fmu")
         return SystemArchive(path.stem, text, path, {path.name: path})
     if path.suffix == ".py":
-        remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
-        raise InputError(text, "", "a file of blocks is no system", remedy)
+        remedy = f"perilune export {text} builds them; simulate the folder of a system that names them"
+        raise InputError(text, "", "a file of blocks is not a system", remedy)
     if path.name == SYSTEM_FILE:
         remedy = f"perilune compose {text} writes its SSD; give the folder"
-        raise InputError(text, "", "a file of which a system is composed is no system", remedy)
+        raise InputError(text, "", "the source file of a system is not a system", remedy)
     if path.suffix == ".toml":
         remedy = f"perilune batch SYSTEM --campaign {text} simulates it with its system"
-        raise InputError(text, "", "a campaign is no system", remedy)
+        raise InputError(text, "", "a campaign is not a system", remedy)
     if path.is_file():
         return SystemArchive(path.stem, text, path, ZippedFiles(read_input(path, OTHER, ARCHIVE_BYTES), text))
     raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))

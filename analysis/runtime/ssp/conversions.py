@@ -33,7 +33,7 @@ class Unit:
         if self.name != other.name:
             return self.name
         if self.exponents is None:
-            return f"{self.name} (of no base units)"
+            return f"{self.name} (without base units)"
         sizes = zip(BASE_UNITS, self.exponents, strict=True)
         parts = [name if size == 1 else f"{name}{size}" for name, size in sizes if size]
         factor = [] if self.factor == 1.0 and parts else [f"{self.factor:g}"]

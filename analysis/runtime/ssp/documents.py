@@ -37,7 +37,7 @@ def version_of(root: etree._Element, file: str) -> str:
     if not root.tag.startswith(f"{{{STANDARD}"):
         return VERSIONS[0]  # the schema rejects documents that are not SSP
     if version not in VERSIONS:
-        problem = f"SSP version {version or '(none)'} is not read"
+        problem = f"SSP version {version or '(none)'} is not supported"
         raise InputError(file, f"version (line {root.sourceline})", problem, 'write version="1.0" or version="2.0"')
     return version
 
@@ -94,7 +94,7 @@ def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> boo
     except etree.XMLSyntaxError as error:
         number = len(parser.error_log)
         if number > MOST_VIOLATIONS:
-            problem = f"{number} violations of its schema; the first: {error.msg}"
+            problem = f"{number} violations of the schema, the first of them: {error.msg}"
             raise InputError(file, "", problem, "correct the file") from error
         return True
     return False

@@ -107,7 +107,7 @@ def _check_indices(root: etree._Element, label: str) -> None:
             for name in attributes:
                 for text in element.get(name, "").split():
                     if not (text.isascii() and text.isdigit() and len(text) < 10 and 1 <= int(text) <= count):
-                        problem = f"{text[:20]} is not the number of one of its {count} variables"
+                        problem = f"{text[:20]} is not the index of one of its {count} variables"
                         raise InputError(label, f"{_line_of(element)}, {name}", problem, FIX)
 
 

@@ -105,7 +105,7 @@ class Reader:
             if tag(item) in read:
                 inner = read[tag(item)](item)
                 if inner.name in system.elements:
-                    raise self.refuse(item, inner.name, "two elements of this name in one system", "rename one")
+                    raise self.refuse(item, inner.name, "two elements with this name in one system", "rename one")
                 system.elements[inner.name] = inner
         for item in children(child(element, "ssd:Connections"), "ssd:Connection"):
             system.connections.append(
@@ -124,7 +124,7 @@ class Reader:
     def indices(self, element: etree._Element, name: str) -> tuple[int, ...]:
         indices = tuple(map(int, element.get(name, "").split()))
         if 0 in indices:
-            raise self.refuse(element, f"Connection, {name}", "0 is no index", "count from 1")
+            raise self.refuse(element, f"Connection, {name}", "0 is not an index", "count from 1")
         return indices
 
     def component(self, element: etree._Element) -> Component:
@@ -137,10 +137,10 @@ class Reader:
             problem = f'implementation="{implementation}" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
         if element.get("source") is None:
-            raise self.refuse(element, name, "no source, so there is nothing to run", 'write source="resources/x.fmu"')
+            raise self.refuse(element, name, "no source", 'write source="resources/x.fmu"')
         source = source_file(element.get("source", ""))
         if is_elsewhere(source):
-            problem = f"source {source} is of another process or machine"
+            problem = f"source {source} is in another process or machine"
             raise self.refuse(element, name, problem, "name a file of the system")
         if not names_fmu(source):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
@@ -178,7 +178,7 @@ class Reader:
         if kind == "inout" and not signal:
             raise self.refuse(element, name, "inout connectors are not supported", "declare it input or output")
         if kind == "unspecified":
-            problem = 'kind="unspecified" leaves open where values come from'
+            problem = 'kind="unspecified" does not state the direction of the signal'
             raise self.refuse(element, name, problem, "declare it input or output")
         return self.read_type(element, name, kind)
 
@@ -209,7 +209,7 @@ class Reader:
             known = self.units.setdefault(unit.name, unit)
             if not unit.is_same(known):
                 problem = f"is {unit.differs_from(known)} here, {known.differs_from(unit)} in {self.file}"
-                raise InputError(file, f"Unit {unit.name}", problem, "use a name for each")
+                raise InputError(file, f"Unit {unit.name}", problem, "use a different name for each unit")
         return {
             entry.get("name", ""): self.read_type(entry, entry.get("name", ""), "inout")
             for entry in children(root, "ssb:DictionaryEntry")

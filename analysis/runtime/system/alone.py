@@ -61,11 +61,11 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
     if stop is None:
         stop = start + DURATION
         if options.chosen["stop_time"] is None:
-            remarks.append(f"the FMU proposes no stop time: {stop:g} s taken")
+            remarks.append(f"the FMU proposes no stop time: {stop:g} s is used")
     if step is None:
         duration = (stop if options.chosen["stop_time"] is None else options.chosen["stop_time"]) - start
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
-        remarks.append(f"the FMU proposes no step: {step:g} s taken")
+        remarks.append(f"the FMU proposes no step: {step:g} s is used")
     ratio = (stop - start) / step if step else math.nan  # 0 is refused with the times of all systems
     steps = math.floor(ratio + STEP_ROUNDING) if 0.0 < ratio < math.inf else 0
     if options.chosen["stop_time"] is None and steps and ratio - steps > STEP_ROUNDING:

@@ -29,7 +29,7 @@ SETTABLE = (*PARAMETERS, "input")
 SINGLE = "`set`"  # origin of single values, unless a file sets them
 TEXT = "Text"  # type of a single value, which takes that of its target
 ELEMENTS = ","  # between the values of a vector
-RANGE = ":"  # between the numbers of a sweep, which is no single value
+RANGE = ":"  # between the numbers of a sweep, which is not a single value
 INDEX = re.compile(r"\[[\d,]+\]$")
 
 
@@ -188,7 +188,7 @@ def _apply(
         ]
         name = path + prefix + assignment.name
         remedy = suggestion(name, known) if known else suggestion(name.partition(".")[0], network.fmus)
-        raise InputError(assignment.file, assignment.where, problem, f"{remedy}; `allow_unmatched` lets it pass")
+        raise InputError(assignment.file, assignment.where, problem, f"{remedy}, or allow it with `allow_unmatched`")
     network.notes.append(f"{assignment.file}: {assignment.where}: {problem}: not applied")
 
 
@@ -208,7 +208,9 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
     """Return the assignment's value converted to its target's type and unit, and transformed."""
     value, given = assignment.value, assignment.type_name
     if type_name == "Binary":
-        raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
+        raise InputError(
+            assignment.file, assignment.where, "a value of type Binary cannot be set", "connect it with a Binary output"
+        )
     if given == TEXT:
         given = type_name
         value = _parse(assignment, type_name, node)
@@ -264,8 +266,8 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
     """Return a single value parsed from text; a bare number is in the variable's unit."""
     if type_name in ("Real", "Boolean", *WHOLE) and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
-        remedy = f"give one{unit}; low:high:step, a sweep, is for perilune batch"
-        raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is no single value", remedy)
+        remedy = f"give one{unit}; sweeps low:high:step are for perilune batch"
+        raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is not a single value", remedy)
     try:
         return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)
     except InputError as error:

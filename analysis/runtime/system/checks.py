@@ -25,7 +25,7 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
     """Return the error for an FMU that does not fit its slot; ``error`` is the description's."""
     fits = list(_fitting(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
-    remedy = f"these do: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here does; build one with its connectors"
+    remedy = f"these fit: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here fits; build one with its connectors"
     reason = error.element.partition(" (line")[0]
     return InputError("`use`", f"{slot}={fmu}", f"it does not fit {slot}: {reason}: {error.problem}", remedy)
 
@@ -60,7 +60,7 @@ def check_shared(network: Network, settings: SystemSettings) -> None:
             readers = {link.target.name for link in network.driver.values() if link.source.name == shared} | {name}
             given = settings.variables[component, variable]
             problem = f"{value} is not {given}, which {shared} of the system gives to {', '.join(sorted(readers))}"
-            raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead: they must agree")
+            raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead, since both must agree")
 
 
 def check_aliases(network: Network) -> None:
@@ -72,7 +72,7 @@ def check_aliases(network: Network) -> None:
             if variable.causality == "input" and (full in network.driver or full in network.driven):
                 first = given.setdefault((variable.reference, variable.index), full)
                 if first != full:
-                    problem = f"is {first} by another name, which is connected or driven, too"
+                    problem = f"is another name of {first}, which is also connected or driven"
                     raise InputError(network.file, full, problem, "connect one of them")
 
 
@@ -99,7 +99,7 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
     component, short = split_name(name, network.fmus)
     variable = network.fmus[component].variables.get(short) if component else None
     if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
-        remedy = f"set it before the start, `set` {name}=VALUE, or take a parameter that is tunable"
+        remedy = f"set it before the start, `set` {name}=VALUE, or use a tunable parameter"
         raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
 
 

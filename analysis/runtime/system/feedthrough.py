@@ -18,9 +18,9 @@ class Origin(StrEnum):
     """Source of a component's direct dependencies."""
 
     FMU = "declared by the FMU"
-    SSD = "as the SSD says"
-    OPTION = "as an option says"
-    ALONE = "as an FMU alone flies"
+    SSD = "stated by the SSD"
+    OPTION = "stated by an option"
+    ALONE = "simulated alone"
     ASSUMED = "assumed, since the FMU does not declare it"
 
 
@@ -117,10 +117,10 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
                 raise InputError(option, name, "no such component", f"use one of {', '.join(sorted(components))}")
     for name in options.chosen["feedthrough"]:
         if name in options.chosen["no_feedthrough"]:
-            raise InputError(OPTIONS[0], name, f"is given to {OPTIONS[1]}, too", "give it to one of them")
+            raise InputError(OPTIONS[0], name, f"is also given to {OPTIONS[1]}", "give it to one of them")
         if is_alone:
             problem = "an FMU alone is stepped with the inputs of the step's start, as FMPy does it"
-            raise InputError(OPTIONS[0], name, problem, "leave it out, or fly it as a component of a system")
+            raise InputError(OPTIONS[0], name, problem, "leave it out, or simulate it as a component of a system")
 
 
 def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:

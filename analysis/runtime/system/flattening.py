@@ -180,7 +180,7 @@ def _connect(network: Network, path: str, system: SystemElement, connection: Con
     end = _end(network, path, system, connection.end, connection)
     backwards = next((term for term in (link, *link.added) if term.target is not end), None)
     if link.added and backwards is not None:
-        problem = f"{backwards.target.name} is {backwards.target.kind}: it gives nothing to add"
+        problem = f"{backwards.target.name} is {backwards.target.kind}, which cannot be added"
         raise network.refuse(connection.where, problem, "add outputs, and connect their sum with an input")
     network.driver[link.target.name] = link
 
@@ -199,7 +199,7 @@ def orient(
     if leads(start.kind, start_is_own, end.kind, end_is_own):
         return forwards
     if not leads(end.kind, end_is_own, start.kind, start_is_own):
-        problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
+        problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}, which cannot be connected"
         remedy = "connect an output with an input"
         if (start.kind in PARAMETERS) != (end.kind in PARAMETERS):
             problem = f"connects {start.kind} {start.name} with {end.kind} {end.name}"
@@ -214,7 +214,7 @@ def _link(network: Network, path: str, system: SystemElement, connection: Connec
     if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
             connection.where,
-            "calculated parameters are not passed on to parameters",
+            "calculated parameters cannot be connected with parameters",
             "remove the connection and give the value in a parameter set",
         )
     return NodeLink(start, end, connection.transformation, connection.line, connection.suppress_unit_conversion)

@@ -33,7 +33,7 @@ MOST_FLAWS = 3  # named in one line
 MOST_DESCRIPTIONS = 32  # kept at once
 SOURCES = "sources/"
 STRUCTURAL = "structuralParameter"
-NOT_VARIED = ("a structural parameter, which sizes arrays, does not vary from trial to trial", "give it to `set`")
+NOT_VARIED = ("a structural parameter, which sizes arrays, cannot vary from trial to trial", "set it with `set`")
 
 
 @dataclass
@@ -155,14 +155,14 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
     if not is_fmi3 and fmpy.architecture == "aarch64" and fmpy.system != "darwin":
-        problem = f"FMI 2.0 has no name for the platform {fmpy.platform_tuple}, so no FMU has a library for it"
-        raise InputError(label, "binaries", problem, "fly on x86_64 or macOS")
+        problem = f"FMI 2.0 does not define the platform {fmpy.platform_tuple}, so no FMU has a binary for it"
+        raise InputError(label, "binaries", problem, "use an x86_64 machine or macOS")
     binary = _binary(description)
     if binary not in archive.namelist():
         has_sources = any(name.startswith("sources/") and name.endswith(".c") for name in archive.namelist())
         remedy = "compile the FMU's sources for it" if has_sources else "export it for this platform"
         if description.coSimulation.needsExecutionTool:
-            remedy = "take its native flavour"
+            remedy = "use its native flavour"
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = make_folder()
     digest = hashlib.sha256(data).hexdigest()

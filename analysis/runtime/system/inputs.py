@@ -51,7 +51,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
         remedy = f"{connecting} {'it' if one else 'them'}{driving}, give a value: {setting}, or `open_inputs` start"
         given = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
         if given is not None:
-            remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"
+            remedy = f"add {given} to the mapping, which omits it; or {remedy}"
         raise InputError(network.file, ", ".join(node.where for node in open_inputs), problem, remedy)
     without = {node.name for node in open_inputs}
     readers: dict[str, list[NodeLink]] = {}
@@ -87,7 +87,7 @@ def missing_outputs(network: Network) -> list[str]:
     """Return a note if the system's FMUs have no outputs, so that only named variables are recorded."""
     if any(variable.causality == "output" for fmu in network.fmus.values() for variable in fmu.variables.values()):
         return []
-    return [f"{network.file}: no FMU has an output: name what `run` is to record with `record`"]
+    return [f"{network.file}: no FMU has an output; name variables to record with `record`"]
 
 
 def check_signals(network: Network, settings: SystemSettings) -> None:
@@ -181,7 +181,9 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
             known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]
             raise InputError(*where, "no such input", suggestion(column, known))
         if name in columns:
-            raise InputError(*where, f"drives {name}, as column {columns[name]} does", "leave one of them out")
+            raise InputError(
+                *where, f"drives {name}, which column {columns[name]} also drives", "leave one of them out"
+            )
         _check_type(series, column, *types[name])
         _check_bounds(network, series, column, name)
         columns[name] = column

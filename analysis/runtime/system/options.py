@@ -66,7 +66,7 @@ class Trust:
                 raise InputError("`allow`", text, "unknown", f"give {NETWORK}, or {WRITE}FOLDER")
         for folder in self.writable:
             if not os.path.isdir(folder):
-                raise InputError("`allow`", folder, "no such folder", "make it, or correct the name")
+                raise InputError("`allow`", folder, "no such folder", "create it, or correct the name")
 
     @property
     def writable(self) -> tuple[str, ...]:

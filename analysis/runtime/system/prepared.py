@@ -199,6 +199,6 @@ def _refuse_seconds(network: Network) -> None:
     for name, fmu in network.fmus.items():
         if fmu.is_alone and fmu.digest in first:
             problem = f"{fmu.label} can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
-            remedy = "take one of them out, or export the FMU for more instances"
+            remedy = "remove one of the components, or export the FMU for several instances"
             raise InputError(network.file, f"{first[fmu.digest]}, {name}", problem, remedy)
         first.setdefault(fmu.digest, name)

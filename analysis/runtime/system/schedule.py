@@ -92,7 +92,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
                 raise InputError(
                     network.file,
                     " -> ".join(error.args[1]),
-                    "these FMUs wait for each other in one communication point",
+                    "these FMUs wait for each other at a communication point",
                     "declare their output dependencies",
                 ) from None
             edges.remove(broken)
@@ -142,7 +142,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
             "algebraic loop",
             " -> ".join(error.args[1]),
             "break it with an FMU whose output does not depend directly on its input (or `no_feedthrough` COMPONENT), "
-            "or fly it a step late, `algorithm` jacobi",
+            "or delay it by a step with `algorithm` jacobi",
         ) from None
 
 

@@ -57,14 +57,14 @@ def read_series(given: Given) -> InputSeries:
     if not series.time.size:
         raise InputError(series.file, "", "no samples", "give a line of numbers for each time")
     if not series.columns:
-        raise InputError(series.file, "", "no column beside time", "give one for each input, by its name")
+        raise InputError(series.file, "", "no column except time", "give a column for each input, named like it")
     for name, values in {TIME: series.time, **series.columns}.items():
         wrong = np.flatnonzero(~np.isfinite(values))
         if wrong.size:
             row = int(wrong[0])
             raise InputError(series.file, series.place(row, name), f"{values[row]} is not finite", "give a number")
     if not math.isfinite(float(series.time[-1]) - float(series.time[0])):
-        raise InputError(series.file, f"column {TIME}", "times too far from each other for doubles", "correct them")
+        raise InputError(series.file, f"column {TIME}", "times too far apart for double precision", "correct them")
     falls = np.flatnonzero(np.diff(series.time) < 0.0)
     if falls.size:
         row = int(falls[0]) + 1

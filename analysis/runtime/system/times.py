@@ -27,7 +27,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     description, chosen = network.description, options.chosen
     if chosen["step"] is None and description.varies is not None:
         line = f"step (line {description.varies})"
-        raise InputError(network.file, line, "varies, which it does not here", "give one: `step`")
+        raise InputError(network.file, line, "a variable step, which is not supported", "give a fixed step with `step`")
     given = chosen["step"] if chosen["step"] is not None else _read_step(network)
     step = given if given is not None else _shortest_proposal(network)
     if step is None:
@@ -39,7 +39,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     experiment = network.file if is_osp else f"{network.file}: DefaultExperiment"
     if stop is None:
         element = "EndTime" if is_osp else "stopTime"
-        error = MissingStopTimeError(experiment, element, "there is none", "give `stop_time`")
+        error = MissingStopTimeError(experiment, element, "missing", "give `stop_time`")
         error.earliest = description.start_time + step
         raise error
     start = description.start_time
@@ -84,13 +84,11 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
             problem = f"its step of {own:g} s takes more than {LONGEST_PERIOD} communication steps of {step:g} s"
             raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer `step`")
         if own is not None and abs(own - period * step) > STEP_ROUNDING * own:
-            network.notes.append(f"{name}: steps by {period * step:g} s, not by {own:g} s as it asks")
+            network.notes.append(f"{name}: steps by {period * step:g} s, not by the requested {own:g} s")
         if period > 1:
             periods[name] = period
     if math.lcm(*periods.values()) > LONGEST_PERIOD:
-        problem = (
-            f"the steps of its components come round together after more than {LONGEST_PERIOD} steps of {step:g} s"
-        )
+        problem = f"the steps of its components have no common multiple within {LONGEST_PERIOD} steps of {step:g} s"
         raise InputError(network.file, "steps", problem, "give a longer `step`")
     return periods
 

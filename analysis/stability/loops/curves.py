@@ -81,7 +81,7 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
     def response(angular: np.ndarray) -> np.ndarray:
         angular = np.asarray(angular, dtype=float)
         if np.any(angular < lowest) or np.any(angular > highest):
-            raise ValueError(f"asked outside of the measured lines, {frequency[0]:g} to {frequency[-1]:g} rad/s")
+            raise ValueError(f"requested outside of the measured lines, {frequency[0]:g} to {frequency[-1]:g} rad/s")
         return np.exp(gain(tustin(angular)) + 1j * phase(np.log(angular)))
 
     return response

@@ -102,7 +102,7 @@ class Bench:
         if flight.status not in COMPLETE or flight.time.size < last - first:
             end = f"{flight.status} at t = {flight.time[-1]:g} s" if flight.time.size else flight.status
             reason = flight.message or "the system ended by itself"
-            message = f"the flight for point {self.point.name} ended early ({end}): {reason}"
+            message = f"the simulation for point {self.point.name} ended early ({end}): {reason}"
             if flight.status == NONFINITE:
                 raise OverflowedError(message, {name: values.copy() for name, values in flight.signals.items()})
             raise StudyError(message)
@@ -129,7 +129,7 @@ class Bench:
                 ratio = Fraction(value / step).limit_denominator(1000)
                 period = math.lcm(period, max(1, ratio.numerator))
         if period > LONGEST:
-            problem = f"the sample periods fit together only every {period * step:g} s"
+            problem = f"the sample periods have a common multiple only after {period * step:g} s"
             raise InputError(self.prepared.network.file, SAMPLE_PERIOD, problem, "give periods with a common multiple")
         return period
 
@@ -142,7 +142,7 @@ class Bench:
             below = np.flatnonzero(values <= self.point.falls_to)
             if not below.size and flight.status not in COMPLETE:
                 raise StudyError(
-                    f"the flight to point {self.point.name} ended early: {flight.message or flight.status}"
+                    f"the simulation to point {self.point.name} ended early: {flight.message or flight.status}"
                 )
             if not below.size:
                 problem = f"{self.point.signal} never falls to {self.point.falls_to:g}"

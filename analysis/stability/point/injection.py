@@ -46,7 +46,7 @@ class UnstableError(LoopError):
     """Unbounded growth of the effect of a disturbance, by the factor ``growth`` per sample."""
 
     def __init__(self, growth: float) -> None:
-        super().__init__(f"unstable, grows {growth:.5g}-fold a sample", MarginVerdict.FAIL)
+        super().__init__(f"unstable: the response grows {growth:.5g}-fold per sample", MarginVerdict.FAIL)
         self.growth = growth
 
 
@@ -127,10 +127,12 @@ class Injector:
             self._transient *= 2
         if change > STILL_MOVING:
             periods = self._transient
-            raise NotMeasurableError(f"the answer still changes by {change:.2g} of itself after {periods} periods")
+            raise NotMeasurableError(
+                f"the response still changes by {change:.2g} of its magnitude after {periods} periods"
+            )
         back = line_spectrum(v[-window:], self.samples, self.signal.lines)
         if not np.all(abs(inside) > 0.0):
-            raise NotMeasurableError("nothing of what is added arrives behind the cut")
+            raise NotMeasurableError("the injected signal does not arrive downstream of the cut")
         return -back / inside, fraction_unexcited(u[-window:], self.signal)
 
     def near(self, frequency: float) -> tuple[float, complex]:

@@ -60,7 +60,7 @@ def element_report(
         cycles.append(LimitCycle(balance.amplitude, 2.0 * np.pi / balance.frequency, balance.stable, *simulated))
     note = ELEMENTS[element.kind].note
     if flown is not None and not stable:
-        note += f". None is predicted, but the flight oscillates: {flown[0]:.4g} at a period of {flown[1]:.4g} s"
+        note += f". None is predicted, but the simulation oscillates: {flown[0]:.4g} at a period of {flown[1]:.4g} s"
     gain = describing_function(element.kind, amplitude, parameters)
     return Nonlinearity(element.name, element.kind, parameters, unit, amplitude, gain, tuple(cycles), note)
 

@@ -25,7 +25,7 @@ from .open_loop import open_loop
 from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
 from .silence import silence_of
 
-SILENT = "nothing of what is added comes back: L is 0"
+SILENT = "none of the injected signal returns: L is 0"
 RETURN_LIMIT = 1e-9  # gain below which nothing comes back
 FACTORS = (0.25, 4.0, 16.0)  # factors on the declared amplitude, in addition to 1
 FIRST_LOOK = 1e-3  # fraction of the Nyquist frequency at which a measurement without a linearisation begins
@@ -206,7 +206,7 @@ class LoopStudy:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
         if self.model is not None:
             names = ", ".join(self.model.facts.doubtful)
-            why = f"its derivatives have no plateau ({names})" if self._doubtful else "it sees nothing come back"
+            why = f"its derivatives have no plateau ({names})" if self._doubtful else "it finds no returning signal"
             self.notes["linearisation"] = f"{why}, so margins are those of the frequency-response test"
         return self._assess_measured(self.refined or self.measured.curve)
 

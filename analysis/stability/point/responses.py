@@ -165,7 +165,7 @@ def _alike(mode: Mode, block: CoupledMemory) -> bool:
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
     """Return the memory cells whose derivatives change most with the step."""
     if model.a.shape != neighbour.a.shape:
-        return ("what reaches what depends on the step",)
+        return ("the dependencies of outputs on inputs depend on the step",)
     change = np.max(abs(model.a - neighbour.a), axis=0)
     worst = np.argsort(-change)[:5]
     return tuple(model.names[place] for place in worst if change[place] > 0.0)
@@ -192,8 +192,8 @@ def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
     if b.half_amplitude_change > NOT_LINEAR:
         reasons.append(f"L changes by {b.half_amplitude_change:.2g} when the amplitude is halved")
     if b.unexcited > NOT_LINEAR:
-        reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
+        reasons.append(f"the response at unexcited lines is {b.unexcited:.2g} of that at excited lines")
     if a.periodicity > NOT_LINEAR:
-        reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
+        reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} returns at other frequencies)")
     size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
-    return f"{size}: " + ("; ".join(reasons) or "neither method sees a reason; the operating point does not last")
+    return f"{size}: " + ("; ".join(reasons) or "neither method finds a reason; the operating point does not last")

@@ -35,8 +35,8 @@ class Silence:
     def reason(self) -> str:
         """End of the loop as text."""
         if self.component is None:
-            return "nothing comes back"
-        return f"nothing comes back behind {self.component}"
+            return "no signal returns"
+        return f"no signal returns downstream of {self.component}"
 
 
 def silence_of(

@@ -113,7 +113,7 @@ def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Ch
         return named
     if len(returned) != len(named):
         problem = f"{loop.returned} has {len(returned)} components, the cut has {len(named)}"
-        raise InputError(network.file, where, problem, "name a signal with as many")
+        raise InputError(network.file, where, problem, "name a signal with as many components")
     return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
 
 
@@ -123,7 +123,7 @@ def _period(loop: LoopDeclaration, network: Network, step: float, where: str) ->
         return 1
     period = round(loop.period / step)
     if period < 1 or abs(period * step - loop.period) > STEP_ROUNDING * loop.period:
-        problem = f"period {loop.period:g} s is no whole number of communication steps of {step:g} s"
+        problem = f"period {loop.period:g} s is not a whole number of communication steps of {step:g} s"
         raise InputError(network.file, where, problem, "give a period or a step that fits")
     return period
 
@@ -131,7 +131,7 @@ def _period(loop: LoopDeclaration, network: Network, step: float, where: str) ->
 def _vector(network: Network, name: str, where: str) -> list[str]:
     connectors = _connectors(network, name, where)
     if len(connectors) != len(AXES):
-        raise InputError(network.file, where, f"{name} has not three components", "name a vector of three")
+        raise InputError(network.file, where, f"{name} does not have three components", "name a vector of three")
     return connectors
 
 
@@ -144,6 +144,6 @@ def _connectors(network: Network, name: str, where: str) -> list[str]:
     for item in connectors:
         node = network.nodes[item]
         if node.component is None or node.kind not in ("output", "input") or node.type_name != "Real":
-            problem = f"{item} is no Real input or output of a component"
+            problem = f"{item} is not a Real input or output of a component"
             raise InputError(network.file, where, problem, "name one as component.connector")
     return connectors

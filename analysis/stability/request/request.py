@@ -87,7 +87,7 @@ def read_request(
             plan, campaign=replace(plan.campaign, compare={})
         )  # without compared FMUs: a study is of one system
     if len(names := [each.name for each in plan.campaign.variants()]) > 1:
-        problem = f"the campaign has {len(names)}, and a study is of one"
+        problem = f"the campaign has {len(names)}, but a study needs one"
         raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {names[0]}")
     check_plan(plan)
     if trial is None:
@@ -104,7 +104,7 @@ def _select(
     for time in at:
         if not (math.isfinite(time) and time >= description.start_time):
             remedy = f"give seconds from {description.start_time:g} on"
-            raise InputError("`at`", f"{time:g}", "not a time of the flight", remedy)
+            raise InputError("`at`", f"{time:g}", "not a time of the simulation", remedy)
     if not names and not declared.loops:
         remedy = "name a loop in the SSD, or cut one with `loops` COMPONENT.CONNECTOR `at`"
         raise InputError(description.file, "", "declares no loops", remedy)
@@ -113,7 +113,7 @@ def _select(
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
             remedy = f"{suggestion(name, by_name)}, or cut one" if by_name else "it names none; cut one"
-            raise InputError("`loops`", name, "the SSD names no such loop", f"{remedy} with COMPONENT.CONNECTOR")
+            raise InputError("`loops`", name, "the SSD declares no such loop", f"{remedy} with COMPONENT.CONNECTOR")
         wanted.append(by_name.get(name) or LoopDeclaration(name, cut=name, points=tuple(point.name for point in cuts)))
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:

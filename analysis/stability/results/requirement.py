@@ -93,4 +93,4 @@ def grows(outside: Sequence[str], most: int = 4) -> str:
     if not outside:
         return ""
     more = f" and {len(outside) - most} more" if len(outside) > most else ""
-    return f"what grows is outside of this loop: {', '.join(outside[:most])}{more}"
+    return f"the instability is outside of this loop: {', '.join(outside[:most])}{more}"

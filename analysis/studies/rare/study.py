@@ -65,11 +65,10 @@ def rare_failure(
             )
         except StalledLevelError as stuck:
             worth, fraction = stuck.args
-            problem = (
-                f"{100 * fraction:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
-            )
+            simulations = f"{100 * fraction:.0f} % of a level's simulations"
+            problem = f"{simulations} have the same margin, {worth:g}, and none a smaller one"
             where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
-            raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
+            raise InputError(*where, problem, "use a failure condition whose margin varies continuously") from stuck
         units = units_of(space, flights.prepared, flights.facts)
         return RareOutcome(
             failure=wanted, simulation=simulation, samples=samples, space=space, flown=flown.whole(),

@@ -99,7 +99,7 @@ class MarginStudies:
 def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
     """Return the study of the point without draws, and its relevant memory cells. Raises InputError."""
     where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
-    remedy = "what perilune stability cannot study has no worst"
+    remedy = "search a margin that perilune stability can study"
     try:
         study = asked.open_request()
     except StudyError as error:

@@ -54,20 +54,20 @@ def read_realisations(
     """Return the options on noise, for a search of ``flights`` simulations. Raises InputError."""
     for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
-            problem = f"all flights have the noise of trial {noise_trial}"
+            problem = f"all simulations have the noise of trial {noise_trial}"
             raise InputError(option, f"{value:g}", problem, "leave it or `noise_trial` out")
     if count is not None and count < 1:
         raise InputError("`realisations`", str(count), "not a positive number", "give 1 or more")
     fraction = QUANTILE if quantile is None else quantile
     if not 0.0 < fraction <= 1.0:
-        raise InputError("`quantile`", f"{fraction:g}", "not a share of the realisations", "give one above 0, up to 1")
+        raise InputError("`quantile`", f"{fraction:g}", "not a quantile", "give a number above 0, up to 1")
     realisations = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, fraction)
     if count is not None and LEAST <= flights < count * LEAST:
-        problem = f"{flights} flights are too few: a search has {LEAST} points or more"
+        problem = f"{flights} simulations are too few: a search needs {LEAST} points or more"
         raise InputError("`realisations`", str(count), problem, f"give `flights` {count * LEAST} or more")
     minimum = 1 if fraction == 1.0 else math.ceil(1.0 / (1.0 - fraction) - 1e-9)
     if quantile is not None and realisations.count < minimum:
-        problem = f"{realisations.count} realisations have no such quantile below their largest"
+        problem = f"{realisations.count} realisations are too few for this quantile"
         raise InputError(
             "`quantile`", f"{fraction:g}", problem, f"give `realisations` {minimum} or more, or `quantile` 1"
         )

@@ -18,8 +18,8 @@ OF_A_LOOP = ("margin", "point", "at")
 OF_FLIGHTS = {  # with the remedy for a search for a margin
     "metric": "give one of them",
     "compare": "choose by `use`",
-    "faults": "margins are of a system without faults",
-    "input": "margins are of a system without inputs over time",
+    "faults": "a margin is computed without faults",
+    "input": "a margin is computed without inputs over time",
     "log": "ask perilune run for it",
     "timeout": "leave it out",
 }
@@ -53,7 +53,7 @@ def check_options(loop: str | None, options: Mapping[str, object]) -> None:
     """Reject options, by name, that do not apply to a loop, or only to a loop. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:
-            raise InputError(f"`{name}`", str(options[name]), "there is no loop", "give `loop` with it")
+            raise InputError(f"`{name}`", str(options[name]), "it needs `loop`", "give `loop`")
     for name, remedy in OF_FLIGHTS.items() if loop is not None else ():
         if options[name]:
             raise InputError(f"`{name}`", "", "does not go with `loop`", remedy)
@@ -85,7 +85,7 @@ def margin_asked(
     )
     (studied_loop,) = request.declaration.loops
     if point is None and len(studied_loop.points) > 1:
-        problem = f"is studied at {len(studied_loop.points)} points, and a search has one"
+        problem = f"is studied at {len(studied_loop.points)} points, but a search needs one"
         points = " or ".join(f"`point` {name}" for name in studied_loop.points)
         raise InputError("`loop`", loop, problem, f"choose: {points}")
     if point is not None and point not in studied_loop.points:

@@ -123,7 +123,7 @@ class _Search:
         if flights < LEAST:
             raise InputError("`flights`", str(flights), "too few", f"give {LEAST} or more")
         if not 0.0 < sigmas < 20.0:
-            raise InputError("`sigmas`", f"{sigmas:g}", "no such box", "give a number above 0, such as 3")
+            raise InputError("`sigmas`", f"{sigmas:g}", "not a valid box", "give a number above 0, such as 3")
         self._space = DrawSpace(plan.campaign, hold)
         self._sigmas, self._flights, self._seed = sigmas, flights, plan.campaign.seed
         self.noise_trial, self.workers = noise_trial, workers

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ....common.errors import InputError
 
-REMEDY = "open its file yourself"
+REMEDY = "open the file in another way"
 
 
 def require_browser(option: str) -> None:
@@ -21,4 +21,4 @@ def require_browser(option: str) -> None:
 def open_page(option: str, page: Path) -> None:
     """Open a page in the browser. Raises InputError if that fails."""
     if not webbrowser.open(page.absolute().as_uri()):
-        raise InputError(option, str(page), "no browser opens it", REMEDY)
+        raise InputError(option, str(page), "no browser could open the page", REMEDY)

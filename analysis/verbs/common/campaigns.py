@@ -61,7 +61,9 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
     read = parse_campaign(plan.source.table()) if plan.source is not None else plan.campaign
     if dropped := read.metrics_of_lookups():
         tables = ", ".join(lookup.name for lookup in read.lookups)
-        warnings.warn(f"{', '.join(dropped)}: left out, since {tables} is of the campaign's own trials", stacklevel=2)
+        warnings.warn(
+            f"{', '.join(dropped)}: omitted, since {tables} holds the campaign's own trials only", stacklevel=2
+        )
     return replace(plan, campaign=plan.campaign.without_lookups())
 
 

@@ -12,5 +12,5 @@ def check_stored_system(archive: SystemArchive) -> None:
     if not archive.path.is_dir():
         raise InputError("`store`", str(archive.path), "not a folder", "unpack the .ssp and name its folder")
     if not IS_CHECKOUT and archive.path.is_relative_to(PACKAGE):
-        problem = "a system of the installed package, which is not written to"
+        problem = "a system of the installed package, which is read-only"
         raise InputError("`store`", str(archive.path), problem, "copy this folder and name the copy")

@@ -20,14 +20,14 @@ from ...options.option import FilePath, Option
 from ...options.system import JsonFile, ReportFiles, Seed, SystemKeywords
 
 MOST_INTERVALS = 100_000
-NO_PLAN = "there is no such plan, or it takes more propellant than is on board"
+NO_PLAN = "no such plan exists, or it needs more propellant than is on board"
 SEARCH_FILE = Argument(
     "search", "F.toml", "a campaign with a table [network_operator]; by name of laws/searches, or a path", "searches"
 )
 LANDING_SYSTEM = Argument(
     "system",
     "SYSTEM",
-    "a name under ssp_systems, a folder or an .ssp file: the bound of its landing; default: the published one",
+    "a name under ssp_systems, a folder or an .ssp file: bound of its landing; default: the published case",
     "systems",
     optional=True,
 )

@@ -70,7 +70,7 @@ def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -
     enumerations: dict[str, type[Enumeration]] = {}
     for each in filter(None, used):
         if enumerations.setdefault(each.__name__, each) is not each:
-            raise ValueError(f"{model}: two enumerations are called {each.__name__}; rename one")
+            raise ValueError(f"{model}: two enumerations are named {each.__name__}; rename one")
     return dict(sorted(enumerations.items()))
 
 
@@ -119,7 +119,9 @@ def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> st
     """
     for number in elements:
         if isinstance(number, int) and not _is_32_bit(number):
-            raise ValueError(f"{variable.name}: starts at {number}, beyond the 32 bits of FMI; give a smaller start")
+            raise ValueError(
+                f"{variable.name}: starts at {number}, beyond 32 bits, the integers of FMI; give a smaller start"
+            )
     return " ".join(map(literal, elements))
 
 

@@ -71,7 +71,7 @@ def _date() -> str:
         return _text_of(datetime.fromtimestamp(int(given), UTC))
     except (ValueError, OverflowError, OSError):
         remedy = "give whole seconds since 1970, or unset it"
-        raise InputError(EPOCH, given, "is no time", remedy) from None
+        raise InputError(EPOCH, given, "is not a time", remedy) from None
 
 
 def _text_of(date: datetime) -> str:

@@ -104,11 +104,11 @@ Import: import inside a kernel
     import at the top of the module
 ImportFrom: import inside a kernel
     import at the top of the module
-Global: global: a kernel's memory is its block
+Global: global: a kernel stores values in its block only
     declare a State on the block
 Nonlocal: nonlocal: no nested functions
     declare a State on the block, or pass a list
-Delete: del: nothing is freed in a kernel
+Delete: del: a kernel frees no objects
     remove the statement
 FunctionDef: a function inside a function
     move it to the module and pass what it needs
@@ -141,7 +141,7 @@ JoinedStr: a string
 NamedExpr: an assignment inside an expression
     assign in a statement of its own
 Yield: yield
-    keep what is to be remembered in a State
+    store values between steps in a State
 Await: await
     remove it
 Pow: the operator **
@@ -170,15 +170,15 @@ NotIn: `not in`
 }
 
 REFUSED_FUNCTIONS: dict[str, str] = {
-    "hypot": "write math.sqrt(x * x + y * y); CPython's own hypot has other bits than C's",
+    "hypot": "write math.sqrt(x * x + y * y); hypot of CPython differs from that of C in its last bits",
     "dist": "write math.sqrt of the sum of squares",
     "fsum": "add in a for loop",
     "sum": "add in a for loop, starting from 0.0",
-    "min": "write the comparison with if, or take clip of perilune.fmus_src.mathlib.vectors",
-    "max": "write the comparison with if, or take clip of perilune.fmus_src.mathlib.vectors",
+    "min": "write the comparison with if, or use clip of perilune.fmus_src.mathlib.vectors",
+    "max": "write the comparison with if, or use clip of perilune.fmus_src.mathlib.vectors",
     "round": "write math.floor(x + 0.5)",
     "bool": "write x != 0.0 or n != 0",
-    "divmod": "write // and % apart",
+    "divmod": "write // and % separately",
     "pow": "write from perilune import pow",
     "print": "put the value on an Output",
     "range": "use range in a for statement only",
@@ -190,11 +190,11 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "radians": "stay in radians; multiply by math.pi / 180.0 where a table needs degrees",
 }
 
-REFUSED_MATH = "write from perilune import {name}: that of the C library has other bits on other processors"
+REFUSED_MATH = "write from perilune import {name}: the C library's result depends on the processor"
 
 LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
-OTHER_SYNTAX = SubsetRule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
-OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
+OTHER_SYNTAX = SubsetRule("{name} is outside of the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
+OTHER_FUNCTION = f'use a function of the page "{LANGUAGE_PAGE}", define one in the file, or declare python_only = True'
 
 # Rules for constructs composed of allowed elements.
 RULES: dict[str, SubsetRule] = _read_rules("""
@@ -204,7 +204,7 @@ no initialize: {name}: initialize is not a method
     write def initialize(self) -> None
 no variables: {name} declares no variables
     declare its inputs, parameters, states and outputs
-python only: {name} says python_only
+python only: {name} declares python_only
     it has no C form; build its Python flavour
 decorator: {name} has a decorator
     write a plain method, or a function in the module
@@ -215,14 +215,14 @@ return type: {name}: no return type of the subset
 missing return: {name}: a path ends without return
     return a value at the end
 return value: returns {got}, declared {expected}
-    return what the declaration says; float(n) widens
+    return the declared type; float(n) widens an int
 recursion: {name} calls itself, directly or through others
     write a for loop with a bound
 unbound: {name} may be read before it is assigned
     give it a value before the if or the loop
 no import: {name} is not imported
     write {words} at the top of the file
-unknown name: {name} is no local variable, kernel function or constant of the module
+unknown name: {name} is not a local variable, kernel function or constant of the module
     assign it first, or define it as a float or int constant of the module
 undeclared: self.{name} is not declared
     declare it in the class: {name} = State(...)
@@ -249,7 +249,7 @@ argument count: {name} takes {expected} arguments, got {got}
 keyword: an argument passed by name
     pass arguments by position
 number: {name} of {got}
-    use numbers; bools and lists do not compute
+    use numbers; bools and lists have no arithmetic
 condition: {got} used as a truth value
     compare it: x != 0.0, n != 0
 comparison: {left} compared with {right}
@@ -257,7 +257,7 @@ comparison: {left} compared with {right}
 chained comparison: a chained comparison
     write a < b and b < c
 branches: one value is {left}, the other {right}
-    give both the same type; float(n) widens
+    give both the same type; float(n) widens an int
 wide int: an int that may exceed 2^53 is {use} as a float would be
     convert it first: float(n), which rounds it once
 int literal: an int beyond 64 bits
@@ -288,22 +288,22 @@ matrix operator: operator {name} of {left} and {right}
     matrices take + - with their like, @ with matrices and vectors, * and / by numbers; dot(a, b) is of two vectors
 matrix sizes: a {left} with a {right}
     use matrices whose rows and columns fit
-matrix size: {name} of a size that is no constant int above 0
+matrix size: {name} with a size that is not a constant int above 0
     write zeros(6, N + 2) or identity(len(p)): of ints, int constants of the module, lengths, and + - * // % of these
-matrix rows: matrix of something else than rows of floats, all of one length
+matrix rows: matrix of anything but rows of floats, all of one length
     write matrix([a, b], [c, d])
-matrix sum: add_product of something else than three matrices whose sizes fit
+matrix sum: add_product of anything but three matrices whose sizes fit
     write add_product(q, a, b) where q + a @ b has a value
 matrix index: {name} is a matrix and takes two indices
     write p[i, j], p[i, :] or p[POSITION, VELOCITY] with POSITION = block(0, 3) in the module
-matrix block: {part} is no int and no block inside the matrix
+matrix block: {part} is neither an int nor a block inside the matrix
     write POSITION = block(0, 3) in the module, or constant bounds 0:3
 matrix shared: {name} is a second name of the matrix {value}
     write {value}.copy()
-matrix rebound: the argument {name} is a matrix and gets another
+matrix rebound: the argument {name} is a matrix and is assigned another
     assign its elements, {name}[:, :] = ..., or use a variable of its own
-matrix changed: {name} changes its argument {argument}, which is also used otherwise or is no variable
-    give it a variable that it gets once, or a copy()
+matrix changed: {name} changes its argument {argument}, which is also used elsewhere or is not a variable
+    pass a variable that is used for it only, or a copy()
 list for vector: a {left} with a {right}
     make the list a vector: vector(*name), vector(*name[0:3])
 list and vector: {name} takes a {expected} for {argument}, got a {got}
@@ -318,27 +318,27 @@ record operator: operator {name} of {left} and {right}
     records of floats and vectors take + - with their like, and * / with numbers
 record: {name} without each of its fields in their order
     write {name}({names})
-record names: {name} uses two records of one name, {first} and {second}
+record names: {name} uses two records of the same name, {first} and {second}
     give one of them another name: C has a struct for each
-replace: replace of something else than a named record
+replace: replace of anything but a named record
     write replace(record, field=value)
 field: {kind} has no field {name}
     it has {names}
 field assigned: {name} is a record, whose fields cannot be assigned
     make a new one: {name} = replace({name}, field=value)
-bundle: {name} is a bundle, which is no value
+bundle: {name} is a bundle, which is not a value
     write its members, {name}.{member}, or assign it to another of its kind: self.command = self.braking
 derivatives: {name} is given to a function to be called, and changes its arguments or the block
-    return what it computes, and assign that where the state is
-part: {part} is no part of two to four of its {size} elements
+    return the result, and assign it where the state is declared
+part: {part} does not select two to four of its {size} elements
     write constants from 0 to {size}
 part of a list: {part} is a list in Python
     write vector(*{part}), or a for loop over range
 part of an expression: a part of {name}
     give it a name first
-target: an assignment to something else than a variable, self.name or an element
+target: an assignment to anything but a variable, self.name or an element
     assign one of these
-for range: for over something else than range
+for range: for over anything but range
     write for i in range(n)
 range step: the step of range is not a constant
     write a non-zero int literal, or a while loop

@@ -124,10 +124,10 @@ def test_stored_and_replayed(file, tmp_path):
 
 WRONG = {
     "unknown": ({"configuration": "serach"}, "configuration serach: no such configuration; use one of search, nominal"),
-    "use": ({"use": {"guidance": "x"}}, "use: guidance: configurations of the campaign choose this FMU"),
+    "use": ({"use": {"guidance": "x"}}, "use: guidance: the campaign's configurations choose this FMU"),
     "set": (
         {"set": {"plant.gravity": 3}},
-        "set: plant.gravity: configurations of the campaign set",
+        "set: plant.gravity: the campaign's configurations set",
     ),
 }
 
@@ -144,7 +144,7 @@ def test_wrong_options(file, case):
 @pytest.mark.usefixtures("fmus")
 def test_a_study_is_of_one(file):
     with pytest.raises(
-        InputError, match="the campaign has 2 variants, and a study is of one; give configuration nominal"
+        InputError, match="the campaign has 2 variants, but a study needs one; give configuration nominal"
     ):
         perilune.sensitivity("lunar_terminal_guidance", file, base=64)
 

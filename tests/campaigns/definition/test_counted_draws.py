@@ -74,7 +74,7 @@ def test_a_table_has_an_end(campaign):
     with pytest.raises(InputError) as caught:
         draw_table(campaign(RANDOM, trials=int(TABLE_TRIALS.default) + 1))
     says = "1000001 trials, of 1000000 at most that are drawn as one table"
-    remedy = 'give fewer, or write draw_scheme = "counter", and other draws fly'
+    remedy = 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
     assert str(caught.value) == f"test.toml: trials: {says}; {remedy}"
 
 
@@ -84,7 +84,7 @@ def test_designs_of_all_trials_are_refused(parse, kind):
     plan = BatchPlan("s", parse(head + DESIGN.format("x", kind)), SystemOptions())
     with pytest.raises(InputError) as caught:
         check_plan(plan)
-    problem = f"a {kind} is a design of all trials, which a counter does not have at once"
+    problem = f'a {kind} needs all trials at once, which draw_scheme = "counter" does not draw'
     assert str(caught.value) == f'test.toml: draw.x: {problem}; use "uniform", or draw_scheme = "table"'
 
 

@@ -52,7 +52,7 @@ def test_too_many_groups_are_refused_in_one_line():
     assert len(groups_of([np.arange(float(MAXIMUM_GROUPS))], WHERE)) == 100
     with pytest.raises(InputError) as caught:
         groups_of([np.arange(MAXIMUM_GROUPS + 1.0).repeat(2)], WHERE)
-    says = "101 different values or more, a group each; group by a value with 100 at most, as a choice or a grid has"
+    says = "at least 101 different values, one group each; group by a quantity with at most 100 values"
     assert str(caught.value) == f"c.toml: group.by: {says}"
 
 
@@ -76,7 +76,7 @@ def test_a_plan_has_the_groups_of_its_draws(campaign):
         (CASES + "[group]\nby = 1\n", "group.by: 1 is not a text"),
         (CASES + '[group]\nby = "case"\nof = "x"\n', "group.of: unknown key; allowed here: by"),
         (CASES + 'group = "case"\n', "draw.case.group: unknown key"),
-        ('[group]\nby = "case"\n', "group.by: 'case' is not a draw or a derived value; there is none to choose"),
+        ('[group]\nby = "case"\n', "group.by: 'case' is not a draw or a derived value; none is available"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(campaign, text, says):

@@ -102,7 +102,7 @@ def test_a_folder_has_the_table(folder, capsys):
     )
     shutil.copytree(folder / "tables", folder / "saved")
     edit(folder / "tables" / "reference.csv", ",4,40", ",4,41")
-    with pytest.raises(InputError, match="another campaign than the one asked for"):
+    with pytest.raises(InputError, match="holds another campaign"):
         batch(folder, output=folder / "out", resume=True)
     shutil.rmtree(folder / "tables")
     assert perilune.replay(folder / "out", 4).metrics["looked_up"] == 40.0
@@ -117,14 +117,14 @@ def test_a_folder_has_the_table(folder, capsys):
     ("before", "after", "words"),
     [
         ("low = 1\n", "low = 1.5\n",
-         r"reference.csv: trial 0: made for other inputs \(gain, others\) than default has; make it again: a tool"),
-        ("0.1]", "0.2]", "trial 0: made for other inputs"),
-        ("seed = 3", "seed = 4", "trial 0: made for other inputs"),
-        ("trials = 5", "trials = 6", "5 trials, and the campaign has 6 or more; give trials 5 at most, or make it"),
+         r"reference.csv: trial 0: computed for other inputs \(gain, others\) than those of default"),
+        ("0.1]", "0.2]", "trial 0: computed for other inputs"),
+        ("seed = 3", "seed = 4", "trial 0: computed for other inputs"),
+        ("trials = 5", "trials = 6", "has 5 trials, but the campaign has 6 or more; give trials 5 at most, or"),
         ('"second"', '"third"', "lookup.reference.column: .*reference.csv has no 'third'"),
         ("tables/reference.csv", "none.csv", "lookup.reference.file: no file none.csv; write it"),
-        ("others =", "further =", r"input: made with, or without, further, others, unlike \[lookup.reference.inputs\]"),
-        ('gain = "odd.gain"', 'gain = "odd.y"', "odd.y varies over a flight; use draws"),
+        ("others =", "further =", r"input: further, others: in only one of the table and \[lookup.reference.inputs\]"),
+        ('gain = "odd.gain"', 'gain = "odd.y"', "odd.y varies during a simulation; use draws"),
         ('gain = "odd.gain"', 'gain = "odd.gains"', "odd.gains.*neither a signal nor a parameter"),
         ("column =", "columns =", "columns: unknown key"),
         ("[lookup.reference.inputs]\n", "[lookup.reference.outputs]\n", "outputs: unknown key"),
@@ -177,17 +177,17 @@ def test_other_trials_than_the_campaigns_have_no_lookups(folder):
     """Draws from a file, and those of a study, are not those of the table."""
     output = folder / "out"
     batch(folder, output=output)
-    with pytest.warns(UserWarning, match="looked_up, difference: left out, since reference is of the campaign's own"):
+    with pytest.warns(UserWarning, match="looked_up, difference: omitted, since reference holds the campaign's own"):
         repeated = batch(folder, draws=output / "draws.parquet")
     assert list(repeated.trials["default"].metrics) == ["last"]
     call = {"failure": "looked_up > 1", "samples": 100, "workers": 1}
     with (
-        pytest.warns(UserWarning, match="left out"),
+        pytest.warns(UserWarning, match="omitted"),
         pytest.raises(InputError, match="looked_up: neither a metric nor a draw"),
     ):
         perilune.rare(folder / "odd.ssp", folder / "c.toml", **call)
     edit(folder / "c.toml", "last < 100", "looked_up < 100")
-    with pytest.raises(InputError, match="success: looked_up needs a lookup, whose numbers are of the campaign's own"):
+    with pytest.raises(InputError, match="success: looked_up needs a lookup, which has values for the campaign's own"):
         perilune.rare(folder / "odd.ssp", folder / "c.toml", **(call | {"failure": "last > 1"}))
 
 

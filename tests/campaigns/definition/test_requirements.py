@@ -44,7 +44,10 @@ def test_everything_is_read(campaign):
         ('share = "100 %"', "pinpoint.share: '100 %' is not between 0 and 1"),
         ('share = "much %"', "pinpoint.share: 'much ' is not constant"),
         ("share = true", "pinpoint.share: True is not a number"),
-        ("confidence = 0.4", "pinpoint.confidence: 0.4: below a half, met and not met could both be shown"),
+        (
+            "confidence = 0.4",
+            "pinpoint.confidence: 0.4 is below 0.5, where a requirement could be both met and not met",
+        ),
         ('metric = "success"', "pinpoint.metric: 'success' is not a metric"),
         ('bound = "both"', "pinpoint.bound: 'both' is not known; use one of upper, lower"),
         ("flights = 3", "pinpoint.flights: unknown key"),

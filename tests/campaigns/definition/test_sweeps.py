@@ -90,11 +90,11 @@ def test_a_sweep_takes_the_place_of_a_fixed_value(campaign):
         ("a.b=5:1:1", "high = 1 is not above low = 5"),
         ("a.b=1:1:1", "high = 1 is not above low = 1"),
         ("a.b=1:inf:1", "not a sweep; write low:high:step with three numbers"),
-        ("a.b=1:2:3", "the step 3 leaves low = 1 only"),
+        ("a.b=1:2:3", "the step 3 reaches no value beyond low = 1"),
         ("a.b=0:1:1e-12", "1e+12 points, at most 10000 are accepted"),
         ("a.b=1:7:1", "12 trials do not fill a grid of 7 points; give a multiple of 7: trials 7 or 14"),
         ("a.b=1:20:1", "12 trials do not fill a grid of 20 points; give a multiple of 20: trials 20"),
-        ("mass=1:2:1", "a sweep of what is no component's; give component.variable"),
+        ("mass=1:2:1", "not a component's variable; give component.variable"),
         ("d.x=1:2:1", "the campaign draws it in every trial; leave it out"),
     ],
 )
@@ -149,7 +149,7 @@ def test_the_sweep_is_in_the_manifest_and_in_the_results(folder, capsys):
     ):
         assert main([*resume, *other]) == 2
         line = capsys.readouterr().err
-        assert f"another campaign than the one asked for: {actual}" in line
+        assert f"holds another campaign: {actual}" in line
         assert line.count("\n") == 1
 
 
@@ -173,12 +173,12 @@ def test_a_trial_of_a_sweep_flies_again(folder, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        (["run", SYSTEM, "--set", SWEEP], "'900:1000:25' is no single value; give one, in kg; low:high:step, a sweep"),
-        (["batch", SYSTEM, "--campaign", "paper", "--set", f"{MASS}=900:1000"], "is no single value"),
+        (["run", SYSTEM, "--set", SWEEP], "'900:1000:25' is not a single value; give one, in kg; sweeps low:high:step"),
+        (["batch", SYSTEM, "--campaign", "paper", "--set", f"{MASS}=900:1000"], "is not a single value"),
         (["rare", SYSTEM, "--campaign", "paper", "--set", SWEEP], "a study has no sweeps"),
         (["sensitivity", SYSTEM, "--campaign", "paper", "--base", "64", "--set", SWEEP], "a study has no sweeps"),
         (["batch", SYSTEM, "--campaign", "paper", "--trials", "20", "--set", "plant.mas=1:2:1"], "no such parameter"),
-        (["batch", SYSTEM, "--campaign", "paper", "--draws", "d.parquet", "--set", SWEEP], "a sweep beside --draws"),
+        (["batch", SYSTEM, "--campaign", "paper", "--draws", "d.parquet", "--set", SWEEP], "a sweep together with"),
     ],
 )  # fmt: skip
 def test_lines_of_the_command_line(fmus, command, words, capsys):

@@ -40,7 +40,7 @@ def test_the_result_counts_them(crashing, tmp_path, capsys):
     assert main(["batch", *words, "--report", str(tmp_path / "page.html"), "--json", str(tmp_path / "r.json")]) == 1
     count = crashed(folder)
     assert 0 < count < 75
-    line = f"default: {count} crashed of 75 trials, which are no successes"
+    line = f"default: {count} crashed of 75 trials, counted as failures"
     assert f"perilune: {line}; --retry-crashed simulates them again\n" in capsys.readouterr().err
     assert line in (tmp_path / "page.html").read_text()
     assert json.loads((tmp_path / "r.json").read_text())["variants"]["default"]["statuses"]["crashed"] == count

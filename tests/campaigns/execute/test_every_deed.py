@@ -33,7 +33,7 @@ ENDS = {
     (Deed.HANG, Call.STEP): ("hung", f"{IN_A_STEP}a call did not return for 0.5 s"),
     (Deed.HANG, Call.INITIALISATION): ("hung", f"{INITIALLY}a call did not return for 0.5 s"),
     (Deed.HANG_WITH_LOCK, Call.STEP): ("hung", f"{IN_A_STEP}a call did not return for 0.5 s"),
-    (Deed.GROW, Call.STEP): ("out_of_memory", f"{IN_A_STEP}its process took more memory than it may"),
+    (Deed.GROW, Call.STEP): ("out_of_memory", f"{IN_A_STEP}its process exceeded its memory limit"),
     (Deed.LOG_MILLION, Call.STEP): ("stop_time", ""),
 }
 TIMEOUT = {"hung": "0.5"}  # s, for a call; elsewhere 30

@@ -104,11 +104,11 @@ def test_a_page_says_how_to_fly_its_trials_again(odd, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ({"half": [0.5]}, "late: is drawn, and no column has it"),
-        ({"half": [0.5], "late": [0.5], "hulf": [1.0]}, "hulf: .* draws and derives no such value; .*half"),
+        ({"half": [0.5]}, "late: is drawn, but the file has no such column"),
+        ({"half": [0.5], "late": [0.5], "hulf": [1.0]}, "hulf: .* neither draws nor derives this value; .*half"),
         ({"half": [np.nan], "late": [0.5]}, "half: nan in row 0"),
         ({"half": ["a"], "late": [0.5]}, "half: not a column of numbers"),
-        ({"half": [0.5], "late": [0.5], "streams_of": [-1]}, "streams_of: not all are numbers of trials"),
+        ({"half": [0.5], "late": [0.5], "streams_of": [-1]}, "streams_of: not all values are trial numbers"),
         ({"half": pyarrow.array([], pyarrow.float64()), "late": pyarrow.array([], pyarrow.float64())}, "no row"),
     ],
 )

@@ -109,9 +109,9 @@ SHARDS = {
         lambda folder: (folder / "trials" / "000001.parquet").unlink(),
         "not found: trials from 25 on are missing",
     ),
-    "another batch": (lambda folder: rewrite(folder, says(batch="x")), "of another batch than summary.json"),
-    "number": (lambda folder: rewrite(folder, says(shard=2)), "not the shard that it is named by"),
-    "span": (lambda folder: rewrite(folder, says(trials=[3, 2])), "trials: not the span of a shard"),
+    "another batch": (lambda folder: rewrite(folder, says(batch="x")), "belongs to another batch than summary.json"),
+    "number": (lambda folder: rewrite(folder, says(shard=2)), "its contents are not those of the shard in its name"),
+    "span": (lambda folder: rewrite(folder, says(trials=[3, 2])), "trials: its trials are not those of one shard"),
     "start": (lambda folder: rewrite(folder, says(trials=[26, 51])), "begins with trial 26, not 25"),
 }
 ROWS = {

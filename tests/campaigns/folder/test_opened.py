@@ -124,7 +124,7 @@ def test_quantiles_are_those_of_the_summary(original):
         (lambda results: results.arrow(where=field("metric.mis") > 1), "no column metric.mis; the nearest"),
         (lambda results: results.quantile("mis", 0.5, "alpha"), "no metric mis; use one of miss"),
         (lambda results: results.quantile("miss", 0.5, "alfa"), "no variant alfa; use one of alpha"),
-        (lambda results: results.quantile("miss", 0.5), "which variant of alpha, beta, gamma"),
+        (lambda results: results.quantile("miss", 0.5), "several variants; name one of alpha, beta, gamma"),
         (lambda results: results.traces("alfa"), "no variant alfa"),
     ],
 )  # fmt: skip
@@ -146,12 +146,12 @@ def cut_off(folder):
 def of_another(folder):
     write_sample(folder.parent / "other", trials=TRIALS, seed=8)
     shutil.copy(shard(folder.parent / "other", 1), shard(folder, 1))
-    return "of another batch than summary.json"
+    return "belongs to another batch than summary.json"
 
 
 def renamed(folder):
     shutil.copy(shard(folder, 2), shard(folder, 1))
-    return "not the shard that it is named by"
+    return "its contents are not those of the shard in its name"
 
 
 @pytest.mark.parametrize("harm", [damage_data, cut_off, of_another, renamed])
@@ -179,7 +179,7 @@ def test_a_metric_that_the_campaign_does_not_declare_is_named(folder):
     table = pyarrow.parquet.read_table(shard(folder, 0))
     other = table.append_column("metric.other", pyarrow.array(np.zeros(table.num_rows)))
     pyarrow.parquet.write_table(other, shard(folder, 0))
-    with pytest.raises(perilune.InputError, match=r"000000\.parquet: metric\.other: no metric of the campaign"):
+    with pytest.raises(perilune.InputError, match=r"000000\.parquet: metric\.other: not a metric of the campaign"):
         _ = perilune.open_results(folder).columns
 
 
@@ -199,7 +199,9 @@ def test_what_is_not_installed_is_named_with_its_extra(original, monkeypatch, mo
     for place in ("runtime.flight.results", "campaigns.folder.traces"):
         monkeypatch.setattr(f"perilune.analysis.{place}.find_spec", lambda name: None if name == module else name)
     words = {"to_pandas": [], "traces": ["alpha"]}[ask]
-    with pytest.raises(ImportError, match=rf"needs {module}, which is not here; pip install 'perilune\[notebook\]'"):
+    with pytest.raises(
+        ImportError, match=rf"needs {module}, which is not installed; pip install 'perilune\[notebook\]'"
+    ):
         getattr(perilune.open_results(original), ask)(*words)
 
 
@@ -215,7 +217,7 @@ def test_a_campaign_that_flies(fmus, tmp_path):
     assert main(["prepare", SYSTEM, "--campaign", "paper", *words, "--output", str(folder)]) == 0
     nothing = perilune.open_results(folder)
     assert (nothing.trials, nothing.flown) == (60, 0)
-    with pytest.raises(perilune.InputError, match="no shard is flown yet"):
+    with pytest.raises(perilune.InputError, match="no shard is complete yet"):
         nothing.arrow()
     with pytest.raises(perilune.InputError, match=r"shard: 0-1: a text, not a list of shards; give \['0-1'\]"):
         perilune.shard(folder, "0-1")

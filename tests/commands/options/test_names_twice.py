@@ -48,7 +48,7 @@ def test_a_campaign(name, here, capsys):
     assert actual["seed"] == 20170700
     (line,) = said
     assert line.startswith(f"`campaign` {name}: read from ssp_systems/{SYSTEM}!")
-    assert line.endswith("paper.toml in the working folder, is not: write `campaign` ./paper.toml for that one")
+    assert line.endswith("paper.toml in the working folder, is not: write `campaign` ./paper.toml to use that file")
     said, actual = remarks([*BATCH, "--campaign", "./paper.toml"], capsys)
     assert (said, actual["seed"]) == ([], 5)
 
@@ -57,7 +57,7 @@ def test_a_parameter_set(here, capsys):
     said, actual = remarks(["run", SYSTEM, "--parameters", "noisy.ssv"], capsys)
     (line,) = said
     assert line.startswith(f"`parameters` noisy.ssv: read from ssp_systems/{SYSTEM}!resources/noisy.ssv; another file")
-    assert line.endswith("write `parameters` ./noisy.ssv for that one")
+    assert line.endswith("write `parameters` ./noisy.ssv to use that file")
     said, other = remarks(["run", SYSTEM, "--parameters", "./noisy.ssv"], capsys)
     assert said == []
     assert other["final"] != actual["final"]

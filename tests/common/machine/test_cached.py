@@ -45,7 +45,7 @@ def test_a_damaged_one_is_replaced(tmp_path, said, name, damaged):
         (tmp_path / name).write_bytes(damaged)
         assert cached.cached_file(path, lambda: CONTENT).read_bytes() == CONTENT
     assert cached.cached_file(path, never) == path
-    assert said() == [f"cache {tmp_path}: damaged files are made again, a.so for one"]
+    assert said() == [f"cache {tmp_path}: damaged files, such as a.so, are written again"]
 
 
 def test_one_whose_checksum_is_missing_is_made_again(tmp_path, said):
@@ -65,9 +65,9 @@ def denied(number):
 @pytest.mark.parametrize(
     ("number", "text"),
     [
-        (errno.ENOSPC, "No space left on device: done without; free some space"),
-        (errno.EACCES, "Permission denied: done without; change its permissions"),
-        (errno.EROFS, "Read-only file system: done without; have its file system mounted for writing"),
+        (errno.ENOSPC, "No space left on device: the cache is not used; free some space"),
+        (errno.EACCES, "Permission denied: the cache is not used; change its permissions"),
+        (errno.EROFS, "Read-only file system: the cache is not used; mount its file system writable"),
     ],
 )
 def test_a_cache_that_cannot_be_written_is_done_without(tmp_path, said, monkeypatch, number, text):
@@ -84,7 +84,7 @@ def test_a_cache_that_is_a_file(tmp_path, said):
     folder = tmp_path / "cache" / "fused"
     assert cached.cached_file(folder / "a.so", lambda: CONTENT).read_bytes() == CONTENT
     assert said() == [
-        f"cache {folder}: Not a directory: done without; remove the file that is where a folder is needed"
+        f"cache {folder}: Not a directory: the cache is not used; remove the file in the place of the folder"
     ]
 
 

@@ -22,9 +22,9 @@ def test_space_is_the_remedy_of_full_disks_alone():
         (errno.ENOSPC, "free some space"),
         (errno.EDQUOT, "quota"),
         (errno.EFBIG, "ulimit -f"),
-        (errno.ENOENT, "put back the folder, which was removed"),
-        (errno.EXDEV, "one file system"),
-        (errno.ESTALE, "mount its file system again"),
+        (errno.ENOENT, "restore the folder, which was removed"),
+        (errno.EXDEV, "single file system"),
+        (errno.ESTALE, "remount its file system"),
     ],
 )
 def test_what_ends_a_campaign_has_its_remedy(tmp_path, number, remedy):

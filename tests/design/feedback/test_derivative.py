@@ -95,5 +95,5 @@ def test_a_singular_plant_is_refused() -> None:
 
 
 def test_a_pole_at_zero_is_refused() -> None:
-    with pytest.raises(modal.PlacementError.__mro__[1], match="poles: one is 0"):
+    with pytest.raises(modal.PlacementError.__mro__[1], match="poles: a pole is 0"):
         modal.place_derivative([[0.0, 1.0], [-1.0, 0.0]], [[0.0], [1.0]], [-1.0, 0.0])

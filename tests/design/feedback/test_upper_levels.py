@@ -97,7 +97,7 @@ def test_divisors_of_zero_are_not_noticed_above() -> None:
         ((4, 2, 3), {"starts": 0}, "starts"),
         ((4, 4, 2), {}, "there are no upper levels"),
         ((4, 2, 4), {}, "there are no upper levels"),
-        ((4, 2, 3), {"upper": [-9.0, -8.0]}, "none of the poles"),
+        ((4, 2, 3), {"upper": [-9.0, -8.0]}, "not one of the poles"),
     ],
 )
 def test_refusals(size: tuple[int, int, int], options: dict, message: str) -> None:

@@ -43,7 +43,7 @@ def test_calendar(time, leap_seconds):
     [
         (("tomorrow",), "utc: 'tomorrow': not a date and time of ISO 8601; write it as 2026-03-20T18:00:00Z"),
         ((20260320,), "utc: 20260320: not a date and time of ISO 8601; write it as 2026-03-20T18:00:00Z"),
-        (("2026-03-20T18:00:00",), "utc: '2026-03-20T18:00:00': without a zone; write it as 2026-03-20T18:00:00Z"),
+        (("2026-03-20T18:00:00",), "utc: '2026-03-20T18:00:00': without a time zone; write it as 2026-03-20T18:00:00Z"),
         (("2016-12-31T23:59:59Z",), "utc: '2016-12-31T23:59:59Z': before 2017; give leap_seconds, TAI - UTC in s at"),
         (("2026-03-20T18:00:00Z", 36.5), "leap_seconds: 36.5: not a whole number; give one, as 37"),
     ],
@@ -98,15 +98,15 @@ def test_hyperbola():
     [
         ({"eccentricity": 1.0}, "eccentricity: 1.0: neither an ellipse nor a hyperbola; give 0 to below 1, or above 1"),
         ({"eccentricity": -0.1}, "eccentricity: -0.1: neither an ellipse"),
-        ({"semi_major_axis": -7e6}, "semi_major_axis: -7000000.0: not above 0, as of an ellipse; change it or"),
-        ({"eccentricity": 1.2}, "semi_major_axis: 7000000.0: not below 0, as of a hyperbola; change it or"),
+        ({"semi_major_axis": -7e6}, "semi_major_axis: -7000000.0: not above 0, as an ellipse needs; change it or"),
+        ({"eccentricity": 1.2}, "semi_major_axis: 7000000.0: not below 0, as a hyperbola needs; change it or"),
         (
             {"semi_major_axis": -7e6, "eccentricity": 1.2, "true_anomaly": 3.0},
             "true_anomaly: 3.0: beyond the asymptote",
         ),
         ({"mu": 0.0}, "mu: 0.0: not above 0"),
         ({"node": float("nan")}, "node: nan: not a finite number"),
-        ({"inclination": "97.4"}, "inclination: '97.4': not a finite number; give one in SI units, angles in rad"),
+        ({"inclination": "97.4"}, "inclination: '97.4': not a finite number; give a number in SI units, angles in rad"),
     ],
 )
 def test_no_orbit(changed, message):

@@ -66,12 +66,12 @@ def test_what_is_not_observable_or_has_no_rank() -> None:
     assert refused.value.number == 0.0
     with pytest.raises(modal.PlacementError, match="not observable"):
         modal.reduced_observer(a, c, [-1.0, -2.0])
-    with pytest.raises(modal.PlacementError, match="has not full row rank") as refused:
+    with pytest.raises(modal.PlacementError, match="is rank deficient") as refused:
         modal.reduced_observer(a, [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0]], [-1.0])
     assert refused.value.reason is modal.Reason.RANK
-    with pytest.raises(modal.PlacementError, match="has not full row rank"):
+    with pytest.raises(modal.PlacementError, match="is rank deficient"):
         modal.reduced_observer(a, np.ones((4, 3)), [])
-    with pytest.raises(ValueError, match="it measures every state"):
+    with pytest.raises(ValueError, match="C measures every state, and no observer is needed"):
         modal.reduced_observer(a, np.eye(3), [])
-    with pytest.raises(ValueError, match="C: it is 1 by 2 where A has 3 states; give a column for each state"):
+    with pytest.raises(ValueError, match="C: it is 1 by 2 where A has 3 states; give one column per state"):
         modal.observer(a, [[1.0, 1.0]], [-1.0, -2.0, -3.0])

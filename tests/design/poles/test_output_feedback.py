@@ -104,8 +104,8 @@ def test_what_it_refuses() -> None:
     for arguments, reason, problem in (
         ((a, b[:, :2], c[:3], poles), modal.Reason.CLASS, r"n, m, p = 6, 2, 3: m \+ p = 5 is less than n"),
         ((a[:2, :2], b[:2, :1], c[:1, :2], [-1, -2]), modal.Reason.CLASS, r"F has m p = 1 elements for n poles"),
-        ((a, b[:, [0, 1, 1]], c, poles), modal.Reason.RANK, "B has not full rank"),
-        ((a, b, c[[0, 1, 2, 2]], poles), modal.Reason.RANK, "C has not full rank"),
+        ((a, b[:, [0, 1, 1]], c, poles), modal.Reason.RANK, "B does not have full rank"),
+        ((a, b, c[[0, 1, 2, 2]], poles), modal.Reason.RANK, "C does not have full rank"),
     ):
         with pytest.raises(modal.PlacementError, match=problem) as refused:
             modal.output_feedback(*arguments)
@@ -126,25 +126,28 @@ def test_plants_with_modes_out_of_reach() -> None:
         modal.output_feedback(apart, np.vstack([b, np.zeros((1, 2))]), np.eye(5)[:4], poles, method="direct")
     assert refused.value.number < 1e-12
     seen = np.hstack([c, np.zeros((4, 1))])
-    with pytest.raises(modal.PlacementError, match=r"not observable|X has not full column rank"):
+    with pytest.raises(modal.PlacementError, match=r"not observable|X does not have full column rank"):
         modal.output_feedback(apart, np.vstack([b, np.ones((1, 2))]), seen, poles, method="direct")
 
 
 @pytest.mark.parametrize(
     ("options", "line"),
     [
-        ({"method": "both"}, "modal: method 'both': there is none of that name; use one of direct, dual"),
+        ({"method": "both"}, "modal: method 'both': unknown; use one of direct, dual"),
         (
             {"choice": "best"},
-            "modal: choice 'best': there is none of that name; use one of first, least_norm, smallest",
+            "modal: choice 'best': unknown; use one of first, least_norm, smallest",
         ),
         (
             {"upper": [-1.0, -2.0]},
-            "modal: upper: how many there are depends on the method; give method direct or dual",
+            "modal: upper: the number of upper poles depends on the method; give method direct or dual",
         ),
-        ({"starts": 0}, "modal: starts: there are 0; give 1 or more"),
-        ({"upper": [-9.0], "method": "direct"}, "modal: upper: there are 1; give 2, repeated ones repeated"),
-        ({"upper": [-9.0, -1.0], "method": "direct"}, "modal: upper: -9 is none of the poles; name some of them"),
+        ({"starts": 0}, "modal: starts: 0 starts; give 1 or more"),
+        ({"upper": [-9.0], "method": "direct"}, "modal: upper: 1 poles; give 2, each as often as it is repeated"),
+        (
+            {"upper": [-9.0, -1.0], "method": "direct"},
+            "modal: upper: -9 is not one of the poles; name some of the poles",
+        ),
     ],
 )
 def test_wrong_input_is_one_line(options: dict, line: str) -> None:

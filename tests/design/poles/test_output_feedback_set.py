@@ -87,7 +87,9 @@ def test_the_example() -> None:
 
 def test_what_the_plants_do_not_let_be_prescribed() -> None:
     wanted = [[[0.25, 0.0], [0.0, 0.5]], np.eye(2)]
-    with pytest.raises(modal.PlacementError, match=r"no F gives all 4 plants what is prescribed: 0.94") as refused:
+    with pytest.raises(
+        modal.PlacementError, match=r"no F meets the prescription for all 4 plants: a relative residual of 0.94"
+    ) as refused:
         modal.common_feedback([turned_plant(q) for q in VALUES], INPUTS, MEASURED, wanted)
     assert refused.value.reason is modal.Reason.RESIDUAL
     assert refused.value.number == pytest.approx(0.94, abs=0.005)
@@ -118,9 +120,9 @@ def test_plants_that_a_common_feedback_made() -> None:
 @pytest.mark.parametrize(
     ("plants", "wanted", "problem"),
     [
-        ([], np.eye(2), "plants: there are none"),
+        ([], np.eye(2), "plants: no plant"),
         ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: their sizes do not fit 2 inputs"),
-        ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: it is no array of numbers; give p matrices"),
+        ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: not an array of numbers; give p matrices"),
         ([turned_plant(1.0)], np.eye(2), r"wanted: it is \(2, 2\); give \(2, 2, 2\)"),
     ],
 )

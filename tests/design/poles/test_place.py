@@ -100,32 +100,31 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
         (
             (SYSTEM[0], [[1.0]], SYSTEM[2]),
             {},
-            "modal: B: it is 1 by 1, and A has 2 states; give a row for each",
+            "modal: B: it is 1 by 1, and A has 2 states; give one row per state",
         ),
-        ((*SYSTEM[:2], [-1.0]), {}, "modal: poles: there are 1; give 2, repeated ones repeated"),
-        ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j has no conjugate; give 0-2j, too"),
+        ((*SYSTEM[:2], [-1.0]), {}, "modal: poles: 1 poles; give 2, each as often as it is repeated"),
+        ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j lacks its conjugate; give 0-2j, too"),
         (
             SYSTEM,
             {"method": "akkerman"},
-            "modal: method 'akkerman': there is none of that name; "
-            "use one of ackermann, bass_gura, indices, multilevel",
+            "modal: method 'akkerman': unknown; use one of ackermann, bass_gura, indices, multilevel",
         ),
         (
             SYSTEM,
             {"choice": "best"},
-            "modal: choice 'best': there is none of that name; use one of diagonal, least_condition, least_norm",
+            "modal: choice 'best': unknown; use one of diagonal, least_condition, least_norm",
         ),
         (
             SYSTEM,
             {"choice": "least_norm", "method": "indices"},
-            "modal: choice 'least_norm': method indices has none; take method multilevel",
+            "modal: choice 'least_norm': method indices has no such option; use method multilevel",
         ),
-        (SYSTEM, {"choice": "least_norm", "starts": 0}, "modal: starts: there are 0; give 1 or more"),
-        (SYSTEM, {"tolerance": 0.0}, "modal: tolerance: it is 0; give a number between 0 and 1"),
+        (SYSTEM, {"choice": "least_norm", "starts": 0}, "modal: starts: 0 starts; give 1 or more"),
+        (SYSTEM, {"tolerance": 0.0}, "modal: tolerance: 0; give a number between 0 and 1"),
         (
             SYSTEM,
             {"tolerance": 1e-6, "method": "ackermann"},
-            "modal: tolerance: method ackermann has none; take method indices or multilevel",
+            "modal: tolerance: method ackermann has no such option; use method indices or multilevel",
         ),
     ],
 )
@@ -141,10 +140,10 @@ def test_wrong_levels_are_one_line() -> None:
     for matrices, bases, problem in (
         (wanted[:1], None, "give one for each level, of sizes 2, 2"),
         ([-np.eye(2), [[-1.0]]], None, r"matrices\[1\]: it is 1 by 1; give 2 by 2 numbers"),
-        (wanted, [eye[:, 2:], eye[:, 2:]], "together they are no orthonormal basis"),
-        (wanted, [eye[:, 2:], eye[:, :1]], "together they are no orthonormal basis"),
-        (wanted, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are no orthonormal basis"),
-        (wanted, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of what drives it"),
+        (wanted, [eye[:, 2:], eye[:, 2:]], "together they are not an orthonormal basis"),
+        (wanted, [eye[:, 2:], eye[:, :1]], "together they are not an orthonormal basis"),
+        (wanted, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are not an orthonormal basis"),
+        (wanted, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of the states that drive it"),
         (wanted, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 states where the rank is 2"),
     ):
         with pytest.raises(InputError, match=problem):

@@ -75,12 +75,12 @@ def test_conjugates_are_matched_within_rounding() -> None:
 @pytest.mark.parametrize(
     ("poles", "problem"),
     [
-        ([-1.0, -2.0], "there are 2; give 3"),
-        ([-1.0, -2.0, -3 + 1j], r"-3\+1j has no conjugate; give -3-1j, too"),
-        ([-1 - 1j, -1 - 1j, -1 + 1j], r"-1-1j has no conjugate; give -1\+1j, too"),
-        ([-1.0, -2.0, np.nan], "no list of finite numbers"),
-        ([[-1.0, -2.0, -3.0]], "no list of finite numbers"),
-        (["fast", "slow", "slow"], "no list of finite numbers"),
+        ([-1.0, -2.0], "2 poles; give 3"),
+        ([-1.0, -2.0, -3 + 1j], r"-3\+1j lacks its conjugate; give -3-1j, too"),
+        ([-1 - 1j, -1 - 1j, -1 + 1j], r"-1-1j lacks its conjugate; give -1\+1j, too"),
+        ([-1.0, -2.0, np.nan], "not a list of finite numbers"),
+        ([[-1.0, -2.0, -3.0]], "not a list of finite numbers"),
+        (["fast", "slow", "slow"], "not a list of finite numbers"),
     ],
 )
 def test_what_is_no_spectrum(poles: list, problem: str) -> None:
@@ -89,5 +89,5 @@ def test_what_is_no_spectrum(poles: list, problem: str) -> None:
 
 
 def test_a_part_that_is_none() -> None:
-    with pytest.raises(InputError, match="-4 is none of the poles"):
+    with pytest.raises(InputError, match="-4 is not one of the poles"):
         Spectrum.of([-1.0, -2.0], 2).without(Spectrum.of([-4.0], 1))

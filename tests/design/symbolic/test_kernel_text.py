@@ -98,11 +98,11 @@ def test_the_file_names_the_functions_that_it_uses() -> None:
 @pytest.mark.parametrize(
     ("pole", "name", "message"),
     [
-        (-K, "lambda", "the name 'lambda': Python has none such"),
-        (-sp.Symbol("k_{1}", real=True), "formula", "the name 'k_{1}': Python has none such"),
-        (-K, "gain", "the function has it for something else"),
-        (-sp.gamma(K), "formula", "gamma is a function that kernels have not"),
-        (-sp.cbrt(K), "formula", "a power that kernels have not"),
+        (-K, "lambda", "the name 'lambda': not a name in Python"),
+        (-sp.Symbol("k_{1}", real=True), "formula", "the name 'k_{1}': not a name in Python"),
+        (-K, "gain", "the function uses this name already"),
+        (-sp.gamma(K), "formula", "gamma is a function that kernels do not have"),
+        (-sp.cbrt(K), "formula", "a power that kernels do not have"),
     ],
 )
 def test_refusals(pole: sp.Expr, name: str, message: str) -> None:

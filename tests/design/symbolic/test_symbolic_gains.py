@@ -199,13 +199,19 @@ X = sp.Symbol("x", real=True)
     ("a", "b", "required", "options", "message"),
     [
         ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {}, "nothing drives"),
-        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {"method": "ackermann"}, "the rank 1 for 2 states"),
-        ([[0, X], [0, 0]], [[0], [1]], [-1], {}, "there are 1 poles"),
+        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {"method": "ackermann"}, "rank 1 for 2 states"),
+        ([[0, X], [0, 0]], [[0], [1]], [-1], {}, "1 poles"),
         ([[0, X], [0, 0]], [[0], [1]], [-1 + sp.I, -1 - sp.I], {}, "not real"),
-        ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"method": "acker"}, "none of that name"),
-        ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"method": "ackermann", "bases": []}, "has none"),
-        ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"bases": [[[1], [0]], [[0], [1]]]}, "not what drives it"),
-        ([[0, X], [0, 0]], [[0], [1]], [[[-1]]], {}, "there are 1 matrices"),
+        ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"method": "acker"}, "unknown"),
+        ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"method": "ackermann", "bases": []}, "has no such option"),
+        (
+            [[0, X], [0, 0]],
+            [[0], [1]],
+            [-1, -2],
+            {"bases": [[[1], [0]], [[0], [1]]]},
+            "does not span the states that drive it",
+        ),
+        ([[0, X], [0, 0]], [[0], [1]], [[[-1]]], {}, "1 matrices"),
         ([[0, X]], [[0], [1]], [-1, -2], {}, "it has 2 columns"),
     ],
 )
@@ -225,12 +231,12 @@ def test_arrays_are_taken_too() -> None:
 def test_without_sympy_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     algebra.sympy.cache_clear()
     monkeypatch.setitem(sys.modules, "sympy", None)
-    with pytest.raises(ValueError, match="it is not installed; pip install 'perilune"):
+    with pytest.raises(ValueError, match="which is not installed; pip install 'perilune"):
         modal.symbolic_gain([[0, 1], [0, 0]], [[0], [1]], [-1, -2])
     algebra.sympy.cache_clear()
 
 
 def test_a_symbol_without_a_value_is_named() -> None:
     formula = modal.symbolic_gain([[0, X], [0, 0]], [[0], [1]], [-1, -2])
-    with pytest.raises(ValueError, match="x has none"):
+    with pytest.raises(ValueError, match="x has no value"):
         formula.at({})

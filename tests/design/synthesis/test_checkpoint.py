@@ -54,7 +54,9 @@ def test_infinite_objectives_survive():
 def test_a_search_that_began_otherwise_is_refused(tmp_path, facts, element):
     path = tmp_path / "checkpoint.json"
     write_checkpoint(path, search(1).state, FACTS)
-    with pytest.raises(InputError, match=f"checkpoint.json: {element}: not what the search began with"):
+    with pytest.raises(
+        InputError, match=f"checkpoint.json: {element}: differs from its value at the start of the search"
+    ):
         read_checkpoint(path, facts)
 
 

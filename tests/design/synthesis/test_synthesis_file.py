@@ -116,13 +116,16 @@ def changed(old, new):
         (changed('speed = "final_speed"', 'speed = "1 +"'), "objectives.speed"),
         (changed('speed = "final_speed"', '"a b" = "final_speed"'), "'a b' is not a plain name"),
         (TEXT.split("[network_operator.objectives]")[0], "network_operator.objectives: no objective"),
-        (TEXT + '[compare]\nguidance = ["a", "b"]\n', "compare: not for a synthesis: one law flies at a time"),
-        (TEXT + '[group]\nby = "x"\n', "group: not for a synthesis: a law is judged by all trials"),
-        (TEXT + '[record]\ntraces = "all"\n', "record: not for a synthesis: nothing is kept"),
-        (changed('"sensor.altitude_noise" = 0.02', '"guidance.q[2]" = 1'), "guidance.q[2]: a part of the law"),
+        (
+            TEXT + '[compare]\nguidance = ["a", "b"]\n',
+            "compare: not allowed here: a synthesis evaluates one law at a time",
+        ),
+        (TEXT + '[group]\nby = "x"\n', "group: not allowed here: a synthesis evaluates a law on all trials"),
+        (TEXT + '[record]\ntraces = "all"\n', "record: not allowed here: a synthesis stores no simulations"),
+        (changed('"sensor.altitude_noise" = 0.02', '"guidance.q[2]" = 1'), "guidance.q[2]: a parameter of the law"),
         (
             changed('[draw."plant.initial_altitude"]', '[draw."guidance.matrix[1,7]"]'),
-            "guidance.matrix[1,7]: a part of the law that is searched for",
+            "guidance.matrix[1,7]: a parameter of the law, which the search sets",
         ),
         (changed("trials = 4", "trials = 0"), "trials: 0 trial(s)"),
         (changed("seed = 11", "seed = 1.5"), "seed: 1.5 is not a whole number"),
@@ -139,7 +142,7 @@ def test_a_basic_solution_that_cannot_be_varied(tmp_path):
     document = find_law("diveev_2013_basic").read_text()
     row = " [ 0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  1,  0]"
     (tmp_path / "mine.json").write_text(document.replace(row, row.replace("1", "0")))
-    with pytest.raises(InputError, match=r"mine.json: matrix: nothing leads to node 15; give it an edge"):
+    with pytest.raises(InputError, match=r"mine.json: matrix: no edge leads to node 15; add an edge to the node"):
         read(tmp_path, TEXT.replace("diveev_2013_basic", "mine.json"))
 
 

@@ -144,12 +144,12 @@ def refused(words, *arguments, **keywords):
 
 def test_a_folder_with_a_search_is_not_overwritten(whole, tmp_path):
     search = synthesis(tmp_path)
-    refused("there is a search here already; give resume to go on", search, output=whole[1])
+    refused("the folder already holds a search; give resume to continue it", search, output=whole[1])
     refused("resume: no folder to resume from; give output", search, resume=True)
     refused("checkpoint.json: not found; leave out resume", search, output=tmp_path / "new", resume=True)
-    refused("seed: not what the search began with", search, seed=12, output=whole[1], resume=True)
+    refused("seed: differs from its value at the start of the search", search, seed=12, output=whole[1], resume=True)
     other = synthesis(tmp_path, TEXT.replace("variations = 4", "variations = 5"))
-    refused("campaign_sha256: not what the search began with", other, output=whole[1], resume=True)
+    refused("campaign_sha256: differs from its value at the start of the search", other, output=whole[1], resume=True)
 
 
 def test_wrong_numbers_are_refused(tmp_path):
@@ -163,7 +163,7 @@ def test_wrong_numbers_are_refused(tmp_path):
     ("old", "new", "words"),
     [
         ('"guidance"\n', '"guide"\n', "network_operator.component: no component guide in the system; use one of"),
-        ('"guidance"\n', '"plant"\n', "plant is flown by planar_moon_lander, which has no parameter plant.matrix[1,1]"),
+        ('"guidance"\n', '"plant"\n', "plant is an FMU planar_moon_lander, which has no parameter plant.matrix[1,1]"),
         (
             '"sensor.sample_period" = 0.5\n',
             "",

@@ -78,12 +78,12 @@ def test_pieces(tmp_path):
 @pytest.mark.parametrize(
     ("pieces", "words"),
     [
-        ('<Stop name="a" altitude="1"/><Stop name="a" altitude="2"/>', "name 'a' is taken or no word"),
-        ('<Stop name="a.b" altitude="1"/>', "name 'a.b' is taken or no word"),
+        ('<Stop name="a" altitude="1"/><Stop name="a" altitude="2"/>', "name 'a' is used twice or not a word"),
+        ('<Stop name="a.b" altitude="1"/>', "name 'a.b' is used twice or not a word"),
         ('<Stop name="a"/>', "no altitude"),
         ('<Go name="a"/>', "unknown element"),
         (PIECES.replace("start_altitude", "altitude"), "no start_altitude"),
-        (PIECES.replace("2400", "50"), "transfer: from 50 m down to 100 m with 526.37 kg"),
+        (PIECES.replace("2400", "50"), "transfer: from 50 m to 100 m with 526.37 kg is not a descent"),
     ],
 )
 def test_wrong_pieces(tmp_path, pieces, words):
@@ -152,13 +152,13 @@ def test_stored_and_found(tmp_path):
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))
     assert isinstance(other, MissingBound)
     assert other.reason.startswith(
-        f"{PLACE} was made for another mass, specific_impulse; store it with perilune design bound"
+        f"{PLACE} was computed for another mass, specific_impulse; store it with perilune design bound"
     )
     write_bound(
         replace(BOUND, inputs=INPUTS | {"more.altitude": 1.0}, sha256=digest(INPUTS | {"more.altitude": 1.0})), place
     )
     assert find_bound(prepared(place)).reason.startswith(
-        f"{PLACE} was made for another more.altitude; store it with perilune design bound"
+        f"{PLACE} was computed for another more.altitude; store it with perilune design bound"
     )
 
 

@@ -123,13 +123,13 @@ def test_the_gradient_is_that_of_gravity(axes):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"weight": (1.0,)}, "lookup.bound.inputs.weight: no input of a bound"),
+        ({"weight": (1.0,)}, "lookup.bound.inputs.weight: not an input of a bound"),
         ({"mass": (1.0, 2.0)}, "mass: 2 numbers, not 1"),
         ({"mass": None}, "no mass; add mass = "),
         ({"mass": (0.0,)}, "mass: 0 is not positive"),
-        ({"glide_slope": (2.0,)}, "glide_slope: 2 rad is no such angle"),
+        ({"glide_slope": (2.0,)}, "glide_slope: 2 rad is not a valid angle"),
         ({"minimum_thrust": (6000.0,)}, "minimum_thrust: 6000 N is negative, or not below"),
-        ({"target": tuple(A1.position)}, "target: the descent starts there"),
+        ({"target": tuple(A1.position)}, "target: equal to the start of the descent"),
     ],
 )
 def test_wrong_inputs(change, words):

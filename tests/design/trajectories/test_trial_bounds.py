@@ -107,9 +107,9 @@ def test_stored_and_looked_up(mine, capsys):
     assert flown.metrics["excess"] == pytest.approx(100.0 * (flown.metrics["propellant"] / stored - 1.0))
     assert np.all(flown.metrics["excess"] > 0.0)
     mine.write_text(mine.read_text() + '[set]\n"plant.initial_mass" = 570\n')
-    with pytest.raises(InputError, match="trial 0: made for other inputs") as error:
+    with pytest.raises(InputError, match="trial 0: computed for other inputs") as error:
         perilune.batch("lunar_landing", mine, workers=1)
-    remedy = f"make it again: perilune design bounds lunar_landing --campaign {mine} --intervals 20 --store"
+    remedy = f"write it again: perilune design bounds lunar_landing --campaign {mine} --intervals 20 --store"
     assert str(error.value).endswith(remedy)
 
 
@@ -117,7 +117,7 @@ def test_stored_and_looked_up(mine, capsys):
     ("text", "words"),
     [
         ('[lookup.bound.inputs]\nmass = 0', r"lookup.bound.inputs.mass: 0 is not positive"),
-        ('[lookup.bound.inputs]\nweight = 3', r"lookup.bound.inputs.weight: no input of a bound"),
+        ('[lookup.bound.inputs]\nweight = 3', r"lookup.bound.inputs.weight: not an input of a bound"),
         ('[lookup.bound.inputs]\ntarget = "altitude"', r"lookup.bound.inputs.target: 1 numbers, not 3"),
         ('[lookup.bound.inputs]\nmass = "guidance.frozen_time_to_go"', r"no.*|neither a signal nor a parameter"),
     ],
@@ -129,7 +129,7 @@ def test_wrong_inputs(mine, text, words):
 
 
 def test_campaigns_without_bounds(tmp_path):
-    with pytest.raises(InputError, match=r"terminal_box.toml: lookup.bound: it does not say"):
+    with pytest.raises(InputError, match=r"terminal_box.toml: lookup.bound: it does not declare"):
         perilune.bound_trials("lunar_landing", "terminal_box", workers=1)
 
 

@@ -94,12 +94,12 @@ def test_the_blocks_of_a_file_go_to_a_folder_of_their_own(capsys: pytest.Capture
     [
         (
             ["jet_health", "--fmi", "3", "--platform", "linux64"],
-            "--platform: linux64: a name of FMI 2.0; for FMI 3.0 give x86_64-linux, aarch64-linux, x86_64-windows, "
+            "--platform: linux64: a platform of FMI 2.0; for FMI 3.0 give x86_64-linux, aarch64-linux, x86_64-windows, "
             "x86_64-darwin, aarch64-darwin",
         ),
         (
             ["jet_health", "--platform", "aarch64-linux"],
-            "--platform: aarch64-linux: a name of FMI 3.0; for FMI 2.0 give linux64, win64, darwin64",
+            "--platform: aarch64-linux: a platform of FMI 3.0; for FMI 2.0 give linux64, win64, darwin64",
         ),
         (
             ["jet_health", "--fmi", "3", "--flavour", "python"],
@@ -107,7 +107,7 @@ def test_the_blocks_of_a_file_go_to_a_folder_of_their_own(capsys: pytest.Capture
         ),
         (
             ["lunar_terminal_guidance", "--fmi", "3", "--ssp", "1"],
-            "--ssp: 1: FMUs of FMI 3.0 have arrays, which SSP 1.0 has not; give 2, or leave out --fmi",
+            "--ssp: 1: FMUs of FMI 3.0 have arrays, which SSP 1.0 does not support; give 2, or leave out --fmi",
         ),
         (["jet_health", "--fmi", "1"], "--fmi: 1: below 2; give 2 or more"),
         (

@@ -112,7 +112,7 @@ def test_the_date_is_that_of_source_date_epoch(tmp_path: Path, monkeypatch: pyte
 
 def test_a_date_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
-    with pytest.raises(InputError, match="SOURCE_DATE_EPOCH: yesterday: is no time; give whole seconds since 1970"):
+    with pytest.raises(InputError, match="SOURCE_DATE_EPOCH: yesterday: is not a time; give whole seconds since 1970"):
         build(Ours, tmp_path)
 
 

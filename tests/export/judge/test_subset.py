@@ -210,7 +210,7 @@ def test_python_only_block_is_refused() -> None:
     (violation,) = check(PythonOnly)
     assert violation.file == Path(__file__)
     assert violation.remedy == RULES["python only"].remedy
-    with pytest.raises(SubsetError, match=r"test_subset\.py:\d+: PythonOnly says python_only"):
+    with pytest.raises(SubsetError, match=r"test_subset\.py:\d+: PythonOnly declares python_only"):
         analyse_kernel(PythonOnly)
 
 
@@ -234,7 +234,7 @@ def test_two_records_of_one_name_are_refused() -> None:
     (violation,) = check(OneName)
     assert violation.file == Path(__file__)
     first, second = (f"{record.__module__}.Motion" for record in (Motion, record_blocks.Motion))
-    assert violation.what == f"OneName uses two records of one name, {first} and {second}"
+    assert violation.what == f"OneName uses two records of the same name, {first} and {second}"
     assert violation.remedy.startswith("give one of them another name")
 
 

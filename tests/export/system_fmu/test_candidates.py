@@ -99,7 +99,7 @@ def test_a_parameter_of_the_system_in_the_unit_of_each(slotted, tmp_path, order)
 
 def test_one_variable_cannot_stand_for_two_units(slotted, tmp_path):
     path, slots = slotted
-    problem = "slots: c.y: Real in m, Real in km, as the candidates have it: one variable cannot stand for both"
+    problem = "slots: c.y: Real in m, Real in km, depending on the candidate: one variable cannot represent both"
     for options in ({"exposed": ["c.y"]}, {"faulty": ["c.y"]}):
         with pytest.raises(InputError, match=problem):
             build_one(tmp_path / "one.fmu", path, slots, **options)
@@ -110,11 +110,11 @@ def test_what_one_candidate_has_alone(slotted, tmp_path):
     path, slots = slotted
     fmu = build_one(tmp_path / "one.fmu", path, slots, ["c.twice"], set={"c.in_kilometres.only": 0.25})
     assert [fly_one(fmu, {"c.use": number})["c.twice"][0] for number in (1, 2)] == [0.0, 3.25]
-    with pytest.raises(InputError, match=r"expose: c\.only: a parameter, which is one of the FMU anyway"):
+    with pytest.raises(InputError, match=r"expose: c\.only: a parameter, which is always a parameter of the FMU"):
         build_one(tmp_path / "one.fmu", path, slots, ["c.only"])
-    with pytest.raises(InputError, match=r"matches no parameter.*; of a slot write SLOT\.CANDIDATE\.PARAMETER"):
+    with pytest.raises(InputError, match=r"matches no parameter.*; for a slot write SLOT\.CANDIDATE\.PARAMETER"):
         build_one(tmp_path / "one.fmu", path, slots, set={"c.only": 0.25})
-    with pytest.raises(InputError, match="expose: y: a connector of the system, which the FMU has anyway"):
+    with pytest.raises(InputError, match="expose: y: a connector of the system, which is always a variable of the FMU"):
         build_one(tmp_path / "one.fmu", path, slots, ["y"])
 
 
@@ -142,10 +142,10 @@ def test_a_system_as_one_fmu_inside_another(slotted, tmp_path):
     (tmp_path / "fmus").mkdir()
     build_one(tmp_path / "fmus" / "inner.fmu", path)
     outer = pack(tmp_path / "o.ssp", tmp_path / "fmus", document(system(component("i", "inner", "output y Real m"))))
-    with pytest.raises(InputError, match="is itself a system as one FMU; nest the system"):
+    with pytest.raises(InputError, match="is itself a system as one FMU; nest its system"):
         build_one(tmp_path / "two.fmu", outer, exposed=["i.y"])
 
 
 def test_candidates_in_python(tmp_path):
-    with pytest.raises(InputError, match=r"slots: guidance: 3 are no FMUs; give names or paths"):
+    with pytest.raises(InputError, match=r"slots: guidance: 3 is not a list of FMUs; give names or paths"):
         perilune.export("lunar_terminal_guidance", as_fmu=True, slots={"guidance": 3})

@@ -253,13 +253,13 @@ def test_what_is_refused(make, tmp_path, tiny_folder):
 
     texts = make(component("r", "ramp", RAMP), declared="input s String")
     assert "s (line" in refusal(texts)
-    assert "a String, which no block has; export the system as .ssp" in refusal(texts)
+    assert "of type String, which is not supported; export the system as .ssp" in refusal(texts)
     gain = make(component("g", "gain", GAIN))
-    assert "expose: g.u: a parameter, which is one of the FMU anyway" in refusal(gain, exposed=["g.u"])
+    assert "expose: g.u: a parameter, which is always a parameter of the FMU" in refusal(gain, exposed=["g.u"])
     whole = "input n Integer; input b Boolean; output m Integer; output c Boolean"
     wires = [connection(f"{a}.{out}", f"{b}.{into}") for a, b in ("vw", "wv") for out, into in ("mn", "cb")]
     ring = make(component("v", "whole", whole), component("w", "whole", whole), connections="".join(wires))
-    assert "would have no variable; give expose with a signal" in refusal(ring, algorithm="jacobi")
+    assert "would have no variables; give expose with a signal" in refusal(ring, algorithm="jacobi")
 
 
 def test_an_input_begins_as_the_component_that_it_reaches(make, tmp_path):

@@ -82,15 +82,26 @@ def test_a_second_build_is_the_same(exported, folder):
 
 
 WRONG = {
-    ("--slot", SLOTS): "--slot: guidance: is of a system as one FMU; give --as-fmu, or leave it out",
-    ("--set", "plant.initial_mass=900"): "--set: plant.initial_mass: is of a system as one FMU; give --as-fmu",
-    ("--as-fmu", "--fmi", "3"): "--fmi: 3: a system as one FMU is of native FMUs, and of FMI 2.0; leave it out",
-    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system as one FMU is of native FMUs",
+    ("--slot", SLOTS): "--slot: guidance: applies only to a system as one FMU; give --as-fmu, or leave it out",
+    (
+        "--set",
+        "plant.initial_mass=900",
+    ): "--set: plant.initial_mass: applies only to a system as one FMU; give --as-fmu",
+    (
+        "--as-fmu",
+        "--fmi",
+        "3",
+    ): "--fmi: 3: a system as one FMU needs native FMUs, and is an FMU of FMI 2.0; leave it out",
+    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system as one FMU needs native FMUs",
     ("--as-fmu", "--ssp", "2"): "--ssp: 2: a system as one FMU",
-    ("--as-fmu", "--study", "all"): "--study: all: a system as one FMU has no reports inside",
+    ("--as-fmu", "--study", "all"): "--study: all: a system as one FMU cannot contain reports",
     ("--as-fmu", "--output", "x.ssp"): "--output: x.ssp",
     ("--as-fmu", "--expose", "plant.altitud"): "--expose: plant.altitud: no such variable",
-    ("--as-fmu", "--expose", "plant.gravity"): "--expose: plant.gravity: a parameter, which is one of the FMU anyway",
+    (
+        "--as-fmu",
+        "--expose",
+        "plant.gravity",
+    ): "--expose: plant.gravity: a parameter, which is always a parameter of the FMU",
     ("--as-fmu", "--faults", "plant.gravit"): "--faults: plant.gravit: no such connector of a component",
     ("--as-fmu", "--faults", "plant.initial_mass"): (
         "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start, --set"
@@ -119,7 +130,7 @@ def test_wrong_calls(arguments, capsys, tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("fmus")
 def test_what_is_no_system(refusal):
-    assert "--as-fmu: analytic_guidance: not a system, which alone can be one FMU" in refusal(
+    assert "--as-fmu: analytic_guidance: not a system, and only a system can become one FMU" in refusal(
         ["export", "analytic_guidance", "--as-fmu"]
     )
 
@@ -130,7 +141,7 @@ def test_without_a_compiler(fmus, tmp_path):
     arguments = ["export", NAME, "--as-fmu", "--output", str(tmp_path / "one.fmu")]
     ended = subprocess.run([sys.executable, "-c", call, *arguments], capture_output=True, text=True, check=False)
     assert ended.returncode == 2
-    problem = "needs a C compiler, and there is none; install cc, or pip install ziglang"
+    problem = "needs a C compiler, and none is installed; install cc, or pip install ziglang"
     assert ended.stderr == f"perilune: export: {NAME}: {problem}\n"
     assert not (tmp_path / "one.fmu").exists()
 
@@ -147,7 +158,7 @@ def test_foreign_and_python_fmus_are_refused(tiny_folder, tmp_path, capsys):
     assert main(["export", str(path), "--as-fmu", "--output", str(tmp_path / "s.fmu")]) == 2
     error = capsys.readouterr().err
     assert "stranger: its FMU" in error
-    assert "is not a native one of Perilune for FMI 2.0, whose C would be needed; export the system as .ssp" in error
+    assert "is not a native FMU of Perilune for FMI 2.0, whose C code is needed; export the system as .ssp" in error
 
 
 def test_parameters_of_systems(tiny_folder, tmp_path):

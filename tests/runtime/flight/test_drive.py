@@ -143,7 +143,7 @@ def test_values_that_a_type_cannot_have(tiny_folder, name, value, expected):
 
 def test_a_name_twice_and_the_nearest(tiny_folder):
     path = tiny_folder / "native" / "whole.fmu"
-    with pytest.raises(InputError, match=r"column whole\.n: drives whole\.n, as column n does; leave"):
+    with pytest.raises(InputError, match=r"column whole\.n: drives whole\.n, which column n also drives; leave"):
         fly(path, {"time": [0.0], "n": [1], "whole.n": [1]})
     with pytest.raises(InputError, match="column m: no such input; use one of b, n"):
         fly(path, {"time": [0.0], "m": [1]})

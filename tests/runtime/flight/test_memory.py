@@ -164,7 +164,7 @@ def test_an_fmu_that_does_not_tell_is_refused_by_name(exact_fmus, tmp_path, chan
     options = SystemOptions(use={"plant": str(silent)})
     with (
         Simulation(prepare_system(path, options)) as simulation,
-        pytest.raises(InputError, match=r"silent\.fmu.*plant.*does not tell how it serialises its memory") as caught,
+        pytest.raises(InputError, match=r"silent\.fmu.*plant.*does not document how it serialises its state") as caught,
     ):
         simulation.memory()
     assert "\n" not in str(caught.value)

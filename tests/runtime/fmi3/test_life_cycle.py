@@ -73,7 +73,7 @@ def test_events_are_those_of_fmpy(tmp_path):
 
 def test_an_fmu_ends_the_simulation(tmp_path):
     flight = perilune.simulate(str(strict_fmu(tmp_path)), set={"Strict.end_at": 0.6})
-    assert (flight.status, flight.message) == ("terminated", "Strict asked for the end at t = 0.6 s")
+    assert (flight.status, flight.message) == ("terminated", "Strict asked for termination at t = 0.6 s")
     assert flight.time.tolist() == [0.0, 0.25, 0.5, 0.6]
     assert np.allclose(flight.signals["Strict.y[1]"], 0.5 * flight.time, rtol=1e-14)
 
@@ -133,7 +133,10 @@ def test_a_number_that_an_fmu_changes_is_reported(tmp_path):
     path = str(strict_fmu(tmp_path, clamps_rounds=True))
     flight = perilune.simulate(path, set={"Strict.rounds": 3})
     assert flight.status == "failed"
-    assert "Strict.rounds: was set to 3, and its FMU has 2 after initialisation: it did not take it" in flight.message
+    assert (
+        "Strict.rounds: was set to 3, and its FMU has 2 after initialisation: the FMU did not accept the value"
+        in flight.message
+    )
 
 
 def test_tolerance_reaches_the_fmu(tmp_path):

@@ -56,7 +56,7 @@ DESCRIPTIONS = {
         changed('<Dimension valueReference="1"/>', '<Dimension valueReference="8"/>'),
         r"Dimension \(line \d+\): neither a start nor a structural parameter",
     ),
-    "dependency": (changed('dependencies=""', 'dependencies="1000"'), "dependencies: 1000 is no value reference"),
+    "dependency": (changed('dependencies=""', 'dependencies="1000"'), "dependencies: 1000 is not a value reference"),
     "step": (changed('stepSize="0.25"', 'stepSize="soon"'), "stepSize: 'soon' is not a number"),
     "draft": (changed('fmiVersion="3.0"', 'fmiVersion="3.0-rc.2"'), "fmiVersion: '3.0-rc.2' is not supported"),
 }
@@ -86,11 +86,14 @@ def test_binary_for_another_platform(tmp_path):
     [
         ({"record": ["blob"]}, "blob: a Binary, which is not recorded; name numbers"),
         ({"record": ["text"]}, "text: a String, which is not recorded; name numbers and Booleans"),
-        ({"set": {"Strict.blob_in": "00"}}, "Strict.blob_in: a Binary is not set; connect it with a Binary output"),
-        ({"set": {"Strict.small_in": 128}}, "Strict.small_in: 128 is no Int8; give a smaller number"),
-        ({"set": {"Strict.wider_in": -1}}, "Strict.wider_in: -1 is no UInt64"),
-        ({"set": {"Strict.wide_in": 2**63}}, "Strict.wide_in: 9223372036854775808 is no Int64"),
-        ({"set": {"Strict.single_in[1]": 1e39}}, r"single_in\[1\]: 1e\+39 is no Float32"),
+        (
+            {"set": {"Strict.blob_in": "00"}},
+            "Strict.blob_in: a value of type Binary cannot be set; connect it with a Binary output",
+        ),
+        ({"set": {"Strict.small_in": 128}}, "Strict.small_in: 128 is not of type Int8; give a smaller number"),
+        ({"set": {"Strict.wider_in": -1}}, "Strict.wider_in: -1 is not of type UInt64"),
+        ({"set": {"Strict.wide_in": 2**63}}, "Strict.wide_in: 9223372036854775808 is not of type Int64"),
+        ({"set": {"Strict.single_in[1]": 1e39}}, r"single_in\[1\]: 1e\+39 is not of type Float32"),
         ({"set": {"Strict.u[1]": -200}}, r"u\[1\]: -200.0 is below the minimum -100"),
         ({"set": {"Strict.n": 5}}, "Strict.n: 5 is above the maximum 4; give a smaller value"),
         ({"set": {"Strict.n": -1}}, "Strict.n: -1 is negative; give a size"),
@@ -115,7 +118,7 @@ def test_structural_parameter_sampled(tmp_path):
     draw = '[draw."Strict.n"]\ndistribution = "choice"\nvalues = [1, 2]\n'
     metric = '[metric.a]\nexpression = "Strict.events"\nreduction = "final"\n[success]\nexpression = "a < 9"\n'
     plan.write_text(f'system = "strict"\ntrials = 2\nseed = 1\n{draw}{metric}')
-    with pytest.raises(perilune.InputError, match="a structural parameter, which sizes arrays, does not vary"):
+    with pytest.raises(perilune.InputError, match="a structural parameter, which sizes arrays, cannot vary"):
         perilune.batch(path, plan)
 
 
@@ -131,7 +134,7 @@ def test_input_by_two_names(tmp_path):
         connections=connection("a.small", "b.d") + connection("a.small", "b.also"),
     )
     path = pack(tmp_path / "t.ssp", tmp_path, document(root))
-    refused("b.also: is b.d by another name, which is connected or driven, too; connect one of them", str(path))
+    refused("b.also: is another name of b.d, which is also connected or driven; connect one of them", str(path))
 
 
 def test_binary_to_string(tmp_path):

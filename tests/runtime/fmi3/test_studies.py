@@ -84,7 +84,7 @@ def test_margins_of_a_loop_of_both_versions(tmp_path):
     assert decibel_size(loop.classical.gain_margin.value) == pytest.approx(-20.0 * math.log10(size), abs=0.01)
     expected = math.degrees(0.5 * math.pi - 3.0 * math.asin(0.5 * size))
     assert degree_size(loop.classical.phase_margin.value) == pytest.approx(expected, abs=0.05)
-    assert "does not tell how it serialises its memory" in loop.not_applicable["linearisation"]
+    assert "does not document how it serialises its state" in loop.not_applicable["linearisation"]
 
 
 def test_bounces_of_a_ball_lose_their_share_of_speed():

@@ -57,11 +57,11 @@ def of(path, **options):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "it wrote no library"),
+        ("", "the compiler wrote no library"),
         ("raise SystemExit(3)", "it ended with status 3 without a message"),
         ("import os; os.kill(os.getpid(), 9)", "it ended by SIGKILL without a message"),
         (r"import os, sys; os.write(2, b'error: \xff\xfe'); sys.exit(1)", "the compiler refuses its C: error: "),
-        ("open('fused.so', 'w').write('x')", "the compiler wrote what is no library"),
+        ("open('fused.so', 'w').write('x')", "the compiler's output is not a library"),
         (b"#!/no/such/interpreter\n", "cannot be run: No such file or directory"),
     ],
 )
@@ -80,7 +80,7 @@ def test_refused_in_one_line(ramp, compiler, text, problem):
 def test_a_cache_that_cannot_be_written(ramp, tmp_path):
     (tmp_path / "fused").write_text("a file in place of the folder")
     with (
-        pytest.warns(UserWarning, match=r"fused: Not a directory: done without"),
+        pytest.warns(UserWarning, match=r"fused: Not a directory: the cache is not used"),
         Simulation(of(ramp, flavour="fused")) as simulation,
     ):
         assert simulation.fly().complete
@@ -110,7 +110,7 @@ def test_a_damaged_library_is_compiled_anew(ramp, tmp_path):
         fuse._load.cache_clear()
         cached._warned.clear()
         with (
-            pytest.warns(UserWarning, match="damaged files are made again"),
+            pytest.warns(UserWarning, match="damaged files"),
             Simulation(of(ramp, flavour="fused")) as simulation,
         ):
             assert simulation.fly().signals["ramp.y"].tobytes() == expected.signals["ramp.y"].tobytes()
@@ -138,7 +138,7 @@ def test_an_interruption_ends_the_compiler(ramp, compiler):
         simulation.interrupt()
         thread.join(30)
         assert not thread.is_alive()
-    assert problems == ["the compiler refuses its C: ended, since it is not wanted any more"]
+    assert problems == ["the compiler refuses its C: ended, since its result is no longer needed"]
     assert not simulation.instances
 
 
@@ -149,7 +149,7 @@ def test_what_is_simulated_elsewhere(tmp_path):
     options = {"trials": 2, "flavour": "fused", "output": tmp_path / "out"}
     with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.batch(*campaign, engine="processes", workers=1, **options)
-    with pytest.raises(InputError, match="flavour: fused: shards compile steps where that pays"):
+    with pytest.raises(InputError, match="flavour: fused: shards choose themselves whether to compile steps"):
         perilune.prepare(*campaign, **options)
     with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.simulate("lunar_terminal_guidance", flavour="fused", use={"guidance": foreign(tmp_path)})

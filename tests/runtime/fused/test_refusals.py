@@ -26,7 +26,10 @@ def test_without_a_compiler(fmus, tmp_path):
     command = [sys.executable, "-c", f"{nothing} {call}", "run", "robot_rendezvous", "--stop-time", "1"]
     ended = subprocess.run([*command, "--flavour", "fused"], capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stderr.count("\n")) == (2, 1)
-    assert "--flavour: fused: needs a C compiler, and there is none; install cc, or pip install ziglang" in ended.stderr
+    assert (
+        "--flavour: fused: needs a C compiler, and none is installed; install cc, or pip install ziglang"
+        in ended.stderr
+    )
     assert subprocess.run(command, capture_output=True, check=False).returncode == 0
 
 
@@ -37,7 +40,7 @@ def test_a_system_of_python_fmus(tiny_folder, tmp_path, refusal):
 
 
 def test_c_of_another_build():
-    with pytest.raises(InputError, match=r"^x\.fmu: sources: its C is not of the interface .*; export it again"):
+    with pytest.raises(InputError, match=r"^x\.fmu: sources: its C code has another interface .*; export it again"):
         component_code({"ramp.c": "int main(void) { return 0; }"}, "ramp", "k0_", "x.fmu")
     with pytest.raises(InputError, match=r"^x\.fmu: sources/fmi2_types\.h: is missing"):
         component_code({"ramp.c": '#include "fmi2_wrapper.h"\n'}, "ramp", "k0_", "x.fmu")
@@ -61,8 +64,8 @@ def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path,
 @pytest.mark.parametrize(
     ("change", "refusal"),
     [
-        ({"MOST_INSTRUCTIONS": 1}, "the steps repeat after 1 communication steps only, too many to be one function"),
-        ({"FLAGS": ("--no-such-flag",)}, r"the compiler refuses its C: .*error.*no-such-flag.*; fly it native$"),
+        ({"MOST_INSTRUCTIONS": 1}, "the steps repeat after 1 communication steps only, too many for one function"),
+        ({"FLAGS": ("--no-such-flag",)}, r"the compiler refuses its C: .*error.*no-such-flag.*; simulate it native$"),
     ],
 )
 def test_what_would_not_be_compiled(tiny_folder, tmp_path, monkeypatch, change, refusal):

@@ -77,7 +77,9 @@ def test_arrays_live_as_long_as_the_structure():
 def test_without_a_library_and_a_compiler(tmp_path, monkeypatch):
     monkeypatch.setattr(library, "BUILD", tmp_path)
     monkeypatch.setattr(library, "compilers_for", _no_compiler)
-    with pytest.raises(InputError, match=r"is not built, and there is no C compiler; install cc, or pip install zigl"):
+    with pytest.raises(
+        InputError, match=r"is not built, and no C compiler is installed; install cc, or pip install zigl"
+    ):
         library.load_library.__wrapped__()
 
 
@@ -90,7 +92,7 @@ def test_a_library_that_is_none(tmp_path, monkeypatch):
     file = built_file(tmp_path, local_platform(3) or "")
     file.parent.mkdir(parents=True)
     file.write_bytes(b"no library")
-    with pytest.raises(InputError, match=r"is no library: .*; build or install it again"):
+    with pytest.raises(InputError, match=r"is not a library: .*; build or install it again"):
         library.load_library.__wrapped__()
 
 

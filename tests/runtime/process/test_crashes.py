@@ -93,8 +93,8 @@ def test_a_batch_notes_once_what_happens_when_it_is_freed(tmp_path):
         trials, _ = fly(tmp_path / "batch", 1, 20, DEED=Deed.SEGFAULT, IN=Call.FREEING)
     freed, renewed = (str(warning.message) for warning in noted)
     assert freed == "odd: when it was terminated and freed, its process ended by SIGSEGV"
-    assert "odd: a process for every simulation" in renewed
-    assert "when it was tried, its process ended by SIGSEGV; " in renewed
+    assert "odd: one process per simulation" in renewed
+    assert "when its reset was tested, its process ended by SIGSEGV; " in renewed
     assert trials.statuses == ["stop_time"] * 20
     assert not trials.messages
 
@@ -110,7 +110,7 @@ def test_a_call_that_does_not_return_has_a_limit(tmp_path):
 def test_memory_has_a_limit(tmp_path):
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=1.0, memory=0.2)
     assert flight.status == "out_of_memory"
-    assert flight.message == "odd: on the way to t = 0.75 s: its process took more memory than it may"
+    assert flight.message == "odd: on the way to t = 0.75 s: its process exceeded its memory limit"
     assert perilune.simulate(odd_fmu(tmp_path, DEED=Deed.GROW, IN=Call.STEP), stop_time=0.75).status == "stop_time"
 
 
@@ -190,7 +190,7 @@ def test_what_fmus_print_has_an_end(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=100)
     lines = done.stderr.splitlines()
     assert lines[:2] == ["odd: \\x1b[31mline 0", "odd: \\x1b[31mline 1"]
-    assert lines[1000:] == ["odd: ... and 999000 lines more"]
+    assert lines[1000:] == ["odd: ... and 999000 more lines"]
 
 
 # By the name of the component; several share the output of their process.
@@ -243,5 +243,5 @@ def test_what_is_refused_before_anything_flies(tmp_path, capsys, call, deed):
     for command in (["validate", str(fmu)], [*prepare, "--step", "0.25", "--stop-time", "1"]):
         assert main([*command, "--call-timeout", "1"]) == 2
         (line,) = capsys.readouterr().err.splitlines()
-        assert "odd: tried alone, with its declared values: " in line
+        assert "odd: tested alone, with its declared values: " in line
     assert not (tmp_path / "out" / "manifest.json").exists()

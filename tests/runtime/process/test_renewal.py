@@ -56,12 +56,12 @@ VERDICTS = {
     Trace.TRAPS: (Renewal.RESET, ""),
     Trace.FLUSH: (Renewal.RESET, ""),
     Trace.FILES: (Renewal.PROCESS, "its folder has changed: trace"),
-    Trace.RAND: (Renewal.PROCESS, "after its reset it flies other than a fresh instance"),
-    Trace.GLOBAL: (Renewal.INSTANCE, "after its reset it flies other than a fresh instance"),
+    Trace.RAND: (Renewal.PROCESS, "after a reset its results differ from those of a fresh instance"),
+    Trace.GLOBAL: (Renewal.INSTANCE, "after a reset its results differ from those of a fresh instance"),
     Trace.FOLDER: (Renewal.PROCESS, "it changes the working folder of its process"),
     Trace.LOCALE: (Renewal.PROCESS, "it changes the locale of its process"),
     Trace.ENVIRONMENT: (Renewal.PROCESS, "it changes the environment of its process: COUPLED"),
-    Trace.CLOCK: (Renewal.IRREPRODUCIBLE, "after its reset .*; a second process simulates it otherwise than the first"),
+    Trace.CLOCK: (Renewal.IRREPRODUCIBLE, "after a reset .*; two processes simulate it with different results"),
 }
 
 
@@ -79,7 +79,7 @@ def trials(fmu, folder, trial_count=TRIALS, **options):
     return table[f"draw.{name}.p"].to_numpy(), table["metric.last"].to_numpy()
 
 
-@pytest.mark.filterwarnings("ignore:.*a process for every simulation")
+@pytest.mark.filterwarnings("ignore:.*one process per simulation")
 @pytest.mark.parametrize("kind", [*MET], ids=name_of)
 def test_one_worker_and_two_have_the_trials_of_a_process_each(tmp_path, kind):
     fmu = make(tmp_path, kind)
@@ -98,7 +98,7 @@ def test_the_verdict_says_what_renews_an_fmu(tmp_path, trace):
 
 def test_processes_for_each_simulation_are_noted_once_with_reason_and_cost(tmp_path):
     fmu = coupled_fmu(tmp_path, Trace.FILES, resets=False)  # of no other test here: it would have been noted
-    note = "coupled: a process for every simulation, as no other is like the first: its folder has changed: trace"
+    note = "coupled: one process per simulation, since a second one in a process differs: its folder has changed: trace"
     with pytest.warns(UserWarning, match=note) as noted:
         [trials(fmu, tmp_path, workers=workers) for workers in (2, 1)]
     assert len(noted) == 1
@@ -106,7 +106,7 @@ def test_processes_for_each_simulation_are_noted_once_with_reason_and_cost(tmp_p
     assert f"{fmu}: {note.removeprefix('coupled: ')}" in perilune.validate(fmu)[0].notes
 
 
-@pytest.mark.filterwarnings("ignore:.*a process for every simulation")
+@pytest.mark.filterwarnings("ignore:.*one process per simulation")
 def test_all_traces_in_one_system_change_no_table(tmp_path):
     """Against one worker; dask's are tried in `test_dask.py`."""
     system, campaign = coupled_system(tmp_path)
@@ -129,7 +129,7 @@ def test_threads_of_this_process_keep_their_floating_point_environment(tmp_path,
 
 
 def test_in_this_process_a_note_says_that_trials_depend_on_each_other(tmp_path):
-    with pytest.warns(UserWarning, match="simulations in this process depend on those before them: its folder has"):
+    with pytest.warns(UserWarning, match="a simulation in this process depends on earlier ones: its folder has"):
         trials(coupled_fmu(tmp_path, Trace.FILES), tmp_path, 3, workers=1, in_process=True)
 
 

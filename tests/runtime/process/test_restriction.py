@@ -108,7 +108,7 @@ def test_a_system_without_restrictions(tmp_path, options, status):
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=100)
     assert done.returncode == status, done.stderr
     (line,) = done.stderr.splitlines()
-    assert "no Landlock, so they can write wherever you can; no seccomp filters" in line
+    assert "no Landlock, so they can write wherever you can write; no seccomp filters" in line
     assert line.startswith(
         "perilune: foreign FMUs are not restricted" if not options else "perilune: --isolate: strict"
     )

@@ -21,7 +21,7 @@ ENDS = {
     "SEGFAULT": ("crashed", "its process ended by SIGSEGV"),
     "EXIT_0": ("crashed", "its process ended with exit status 0"),
     "HANG": ("hung", "a call did not return for 1 s"),
-    "GROW": ("out_of_memory", "its process took more memory than it may"),
+    "GROW": ("out_of_memory", "its process exceeded its memory limit"),
 }
 
 
@@ -57,4 +57,4 @@ def test_what_it_prints_is_no_order_to_the_terminal(tmp_path, capfd):
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed.PRINT, IN=Call.INITIALISATION), stop_time=1.0)
     assert flight.status == "stop_time"
     lines = capfd.readouterr().err.splitlines()
-    assert (lines[0], lines[1000]) == ("odd: \\x1b[31mline 0", "odd: ... and 999000 lines more")
+    assert (lines[0], lines[1000]) == ("odd: \\x1b[31mline 0", "odd: ... and 999000 more lines")

@@ -69,7 +69,7 @@ def test_a_step_that_is_no_multiple(folder, capsys):
     truth = libcosim(written, ["fast.y"], 12)
     np.testing.assert_array_equal(fly(written, stop_time=1.5)["fast.y"][1:], truth[:, 0])
     assert main(["validate", str(written), "--stop-time", "1"]) == 0
-    assert "ramp: steps by 0.25 s, not by 0.3 s as it asks" in " ".join(capsys.readouterr().out.split())
+    assert "ramp: steps by 0.25 s, not by the requested 0.3 s" in " ".join(capsys.readouterr().out.split())
 
 
 def test_the_file_itself_may_be_named(folder):
@@ -95,7 +95,7 @@ def test_simulators_in_a_process_of_their_own(folder):
         actual.append(fly(folder(CHAIN.replace('"delay.fmu"', f'"{source}"')), stop_time=1.5)["after.y"])
     np.testing.assert_array_equal(*actual)
     text = CHAIN.replace('"ramp.fmu"', '"proxyfmu://lab:9090?file=ramp.fmu"')
-    with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is of another process"):
+    with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is in another process"):
         fly(folder(text))
 
 
@@ -127,7 +127,7 @@ def test_validate_needs_no_end(folder, capsys, refusal):
     written = folder(CHAIN)
     assert main(["validate", str(written)]) == 0
     assert "no EndTime: run needs --stop-time" in " ".join(capsys.readouterr().out.split())
-    assert "EndTime: there is none; give --stop-time" in refusal(["run", str(written)])
+    assert "EndTime: missing; give --stop-time" in refusal(["run", str(written)])
 
 
 def test_an_end_of_its_own(folder):
@@ -159,7 +159,7 @@ def test_groups_of_variables(folder):
         ("<a/>", "a is not an OspSystemStructure"),
         (
             CHAIN.replace("ramp.fmu", "proxyfmu://here"),
-            r"Simulator \(line 5\): source proxyfmu://here of ramp is of another process or machine",
+            r"Simulator \(line 5\): source proxyfmu://here of ramp is in another process or machine",
         ),
         (
             CHAIN.replace('simulator="fast"', 'simulator="vast"'),
@@ -176,7 +176,7 @@ def test_groups_of_variables(folder):
         ),
         (
             CHAIN.replace("<Simulators>", '<Functions><Product name="s"/></Functions><Simulators>'),
-            "use an FMU that does it",
+            "replace the function by an FMU",
         ),
         (CHAIN.replace('name="y"', 'name="why"', 1), r"ramp\.why \(line 8\): .* has no variable of this name"),
         (CHAIN.replace('variable="start"', 'variable="stort"'), r"stort .*matches no parameter.*start"),

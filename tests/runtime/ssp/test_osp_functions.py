@@ -151,7 +151,7 @@ BOTH = signal("ramp.y", "s:in[0]") + signal("other.y", "s:in[1]")
         (of_sum(BOTH, signal("s:out", "fast.y")), r"fast\.y .*output"),
         (
             of_sum(signal("fast.u", "s:in[0]"), signal("fast.u", "s:in[1]"), signal("s:out", "ramp.y")),
-            "nothing to add",
+            "cannot be added",
         ),
         (of_sum(BOTH, inputs="many"), "inputCount 'many' is not a number from 1 to 10000"),
         (of_sum(BOTH, signal("ramp.flag", "s:out")), r"flag"),
@@ -160,7 +160,10 @@ BOTH = signal("ramp.y", "s:in[0]") + signal("other.y", "s:in[1]")
             "1 variables for a signal of 3 of v",
         ),
         (structure(RAMPS, "", functions('<LinearTransformation name="f" factor="x"/>')), "factor 'x' is not a number"),
-        (structure(RAMPS, "", functions('<Sum name="s"/>', '<Sum name="s"/>')), r"Sum \(line \d+\): a second one of"),
+        (
+            structure(RAMPS, "", functions('<Sum name="s"/>', '<Sum name="s"/>')),
+            r"Sum \(line \d+\): a second function named",
+        ),
     ],
 )
 def test_refusals(folder, text, words):

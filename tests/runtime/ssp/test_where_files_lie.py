@@ -131,7 +131,7 @@ def test_an_fmu_in_a_process_of_its_own_is_the_fmu(tiny, tmp_path, plain):
     same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
     text = text.replace("localhost?", "127.0.0.1:9090?")
     same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
-    with pytest.raises(InputError, match=r"gain \(line \d+\): source proxyfmu://lab\?file=.* is of another process or"):
+    with pytest.raises(InputError, match=r"gain \(line \d+\): source proxyfmu://lab\?file=.* is in another process or"):
         fly(pack(tmp_path / "s.ssp", tiny, text.replace("127.0.0.1:9090?", "lab?"), **fmus))
 
 

@@ -68,7 +68,7 @@ def test_a_step_size_of_zero_is_none(tmp_path):
     path = with_step(tmp_path, "0.0")
     prepared = prepare_system(path)
     assert prepared.step == auto_interval(1.0)
-    said = f"{path}: modelDescription.xml: DefaultExperiment, stepSize: 0.0 is no step, and taken as none"
+    said = f"{path}: modelDescription.xml: DefaultExperiment, stepSize: 0.0 is not a step size, and is ignored"
     assert said in prepared.network.notes
     root = system(component("zero", "odd"), component("other", "another"))
     odd_fmu(tmp_path, name="another")
@@ -146,7 +146,7 @@ def test_a_file_that_is_not_there_and_one_that_is_none(tmp_path):
     (tmp_path / "x.fmu").write_text("no zip")
     with pytest.raises(InputError, match=r"x\.fmu: archive: not a readable zip"):
         perilune.simulate(tmp_path / "x.fmu")
-    with pytest.raises(InputError, match="an FMU alone has none; give a system here"):
+    with pytest.raises(InputError, match="an FMU alone has no SSD; give a system"):
         perilune.stability(tmp_path / "x.fmu")
 
 

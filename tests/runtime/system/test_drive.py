@@ -68,5 +68,7 @@ def test_points_in_blocks_have_the_same_bits(tiny, monkeypatch):
 def test_more_points_than_memory_are_refused(tiny, monkeypatch, step):
     monkeypatch.setenv("PERILUNE_MEMORY_FRACTION", "1e-9")
     series = read_series({"time": [0.0], "u": [1.0]})
-    with pytest.raises(InputError, match=r"rows of 1 inputs take \S+ GB, over 0% of what is free; give a longer step"):
+    with pytest.raises(
+        InputError, match=r"rows of 1 inputs take \S+ GB, over 0% of the free memory; give a longer step"
+    ):
         prepare_system(str(tiny / "gain.fmu"), SystemOptions(step=step, stop_time=1.0), series=series)

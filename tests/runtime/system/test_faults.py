@@ -65,7 +65,7 @@ FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("a.b", f"not of the form {FORM}; write it so"),
+        ("a.b", f"not of the form {FORM}; use this form"),
         ("a.b=bias:1", f"not of the form {FORM}"),
         ("=bias:1@2", f"not of the form {FORM}"),
         ("a.b=@2", f"not of the form {FORM}"),

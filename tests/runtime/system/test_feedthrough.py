@@ -131,14 +131,14 @@ def test_an_fmu_alone_keeps_the_order_of_fmpy(undeclared):
 
 def test_refusals(undeclared):
     path = chain(undeclared)
-    with pytest.raises(InputError, match=r"feedthrough: gain: is given to no_feedthrough, too; give it to one"):
+    with pytest.raises(InputError, match=r"feedthrough: gain: is also given to no_feedthrough; give it to one"):
         prepare_system(path, SystemOptions(feedthrough=("gain",), no_feedthrough=("gain",)))
     with pytest.raises(InputError, match=r"feedthrough: nobody: no such component; use one of delay, gain, ramp"):
         prepare_system(path, SystemOptions(feedthrough=("nobody",)))
     with pytest.raises(InputError, match=r"Feedthrough \(line 6\): direct is 'maybe'; write direct=\"true\" or"):
         prepare_system(chain(undeclared, extra=says("maybe"), name="wrong"))
     double = says("true").replace("</ssd:Annotations>", says("true").removeprefix("<ssd:Annotations>"))
-    with pytest.raises(InputError, match=r"the second of type org\.perilune\.feedthrough; write one"):
+    with pytest.raises(InputError, match=r"a second annotation of type org\.perilune\.feedthrough; write one"):
         prepare_system(chain(undeclared, extra=double, name="twice"))
     misplaced = document(system(RAMP, extra=says("true")))
     with pytest.raises(InputError, match=r"org\.perilune\.feedthrough in a System; write it into a Component"):
@@ -157,7 +157,7 @@ def test_what_is_assumed_is_said_where_one_looks(undeclared, capsys):
     assert main(["describe", path]) == 0
     assert re.search(r"gain +none, assumed, since the FMU does not declare it", capsys.readouterr().out)
     assert main(["describe", path, "gain", "--feedthrough", "gain"]) == 0
-    assert "feedthrough     direct, as an option says" in capsys.readouterr().out
+    assert "feedthrough     direct, stated by an option" in capsys.readouterr().out
     assert main(["describe", str(undeclared / "open_gain.fmu")]) == 0
     assert "feedthrough     not declared of y" in capsys.readouterr().out
 

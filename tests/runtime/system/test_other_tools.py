@@ -51,7 +51,7 @@ def test_a_backward_connection_transforms_what_flows(tiny, tmp_path):
 def test_two_of_a_kind_are_refused_either_way(tiny, tmp_path):
     for start, end in (("ramp.y", "gain.y"), ("gain.y", "ramp.y")):
         path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=connection(start, end))))
-        with pytest.raises(InputError, match=r"neither gives what the other takes; connect an output with an input"):
+        with pytest.raises(InputError, match=r"which cannot be connected; connect an output with an input"):
             fly(path)
 
 
@@ -138,7 +138,9 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys, refusa
 
 def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, refusal):
     (tmp_path / "set.ssv").write_text(parameter_set("ramp.start=Real:2"))
-    assert "it is no system, which they are for" in refusal(["validate", str(tmp_path / "set.ssv"), "--step", "1"])
+    assert "not a system, and the option applies only to systems" in refusal(
+        ["validate", str(tmp_path / "set.ssv"), "--step", "1"]
+    )
     assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1", "--set", "ramp.start=2"]) == 0
     assert "use one of ramp.start, ramp.slope" in refusal(["validate", str(tiny / "ramp.fmu"), "--set", "ramp.star=2"])
 
@@ -190,7 +192,7 @@ def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
     binding = inline("a=Real:2; u=Real:5 m", mapping=entry)
     path = pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "input u Real m", binding))))
     with pytest.raises(
-        InputError, match=r"gain\.u .*; map u of SystemStructure\.ssd line \d+ too, .* leaves it out; or"
+        InputError, match=r"gain\.u .*; add u of SystemStructure\.ssd line \d+ to the mapping, which omits it; or"
     ):
         fly(path)
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0

@@ -25,7 +25,7 @@ def test_an_arm_processor(tiny_folder, monkeypatch, system, named):
     if named:
         assert load_fmu(data, "ramp.fmu").name == "ramp"
         return
-    with pytest.raises(InputError, match=f"ramp.fmu: binaries: FMI 2.0 has no name for the platform aarch64-{system}"):
+    with pytest.raises(InputError, match=f"ramp.fmu: binaries: FMI 2.0 does not define the platform aarch64-{system}"):
         load_fmu(data, "ramp.fmu")
 
 

@@ -97,7 +97,7 @@ def test_a_parameter_with_a_unit_is_converted_on_its_way(array_fmus, tmp_path):
         (
             [component("fixed", "settled", "calculatedParameter y Integer"), SETTABLE],
             {"connections": connection("fixed.y", "settable.p")},
-            r"connection fixed\.y -> settable\.p \(line \d+\): calculated parameters are not passed on to parameters",
+            r"connection fixed\.y -> settable\.p \(line \d+\): calculated parameters cannot be connected",
         ),
         (
             [component("fixed", "fixed", "constant y Integer")],
@@ -107,7 +107,7 @@ def test_a_parameter_with_a_unit_is_converted_on_its_way(array_fmus, tmp_path):
         (
             [COUNTED],
             {"declared": "parameter p Integer", "connections": connection("p", "counted.n")},
-            r"connection p -> counted\.n \(line \d+\): p has no value; give it one in a parameter set",
+            r"connection p -> counted\.n \(line \d+\): p has no value; give it a value in a parameter set",
         ),
         (
             [component("three", "three", "local count Integer"), SETTABLE],

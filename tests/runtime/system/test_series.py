@@ -37,7 +37,7 @@ def test_what_spreadsheets_write(tmp_path):
     [
         ("", ": empty; write a comma-separated file"),
         ("time,u\n", ": no samples; give a line of numbers"),
-        ("time\n0\n", ": no column beside time; give one"),
+        ("time\n0\n", ": no column except time; give a column"),
         ("u,time\n0,0\n", ": line 1: the first column is 'u', not time; write"),
         ("time;u\n0;0\n", ": line 1: the first column is 'time;u', not time; write"),
         ("time,u,u\n0,0,0\n", ": line 1: column u is there twice; leave"),

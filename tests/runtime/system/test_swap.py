@@ -56,7 +56,7 @@ def test_an_fmu_without_the_connectors_is_refused(slot, fmu, missing):
     text = str(caught.value)
     assert missing in text
     assert f"{fmu}.fmu" in text
-    assert "; these do: " in text
+    assert "; these fit: " in text
     assert "\n" not in text
 
 

@@ -109,7 +109,7 @@ CHOICE = '[draw."a.count"]\ndistribution = "choice"\nvalues = [0, 1]\n'
 def test_what_is_held_is_said(tmp_path, capsys, refusal):
     linear = linear_system(tmp_path, CHOICE)
     line = ["rare", linear[0], "--campaign", linear[1], "--samples", "300", "--workers", "1"]
-    assert "a choice has single values, and this study goes between them; hold it" in refusal(line)
+    assert "a choice has discrete values, but this study needs a continuous draw; hold it" in refusal(line)
     assert main([*line, "--hold", "a.count=1", "--failure", "total > 2.5"]) == 0  # total is defined for count 1
     text = capsys.readouterr().out
     for part in ("failure probability", "all numbers", "Levels"):
@@ -132,7 +132,7 @@ def test_no_batch_is_printed_for_held_values(tmp_path):
     ("options", "words"),
     [
         ({"failure": "total > "}, "failure: total >"),
-        ({"failure": "where(total > 5, 1, 0)"}, "100 % of a level's flights have one margin"),
+        ({"failure": "where(total > 5, 1, 0)"}, "100 % of a level's simulations have the same margin"),
         ({"samples": 50}, "samples: 50: below 100"),
         ({"least": 2.0}, "least: 2: not a probability"),
         ({"hold": {"b.gain": 1.0}}, "is drawn together with c.gain"),

@@ -91,10 +91,10 @@ def test_held_noise_is_a_condition(fmus):
     ("options", "words"),
     [
         ({"realisations": 0}, "realisations: 0: not a positive number"),
-        ({"quantile": 0.0}, "quantile: 0: not a share of the realisations"),
-        ({"quantile": 0.9}, "5 realisations have no such quantile below their largest; give realisations 10 or more"),
-        ({"realisations": 3, "noise_trial": 0}, "realisations: 3: all flights have the noise of trial 0"),
-        ({"flights": 300, "realisations": 5}, "realisations: 5: 300 flights are too few.*give flights 500 or more"),
+        ({"quantile": 0.0}, "quantile: 0: not a quantile"),
+        ({"quantile": 0.9}, "5 realisations are too few for this quantile; give realisations 10 or more"),
+        ({"realisations": 3, "noise_trial": 0}, "realisations: 3: all simulations have the noise of trial 0"),
+        ({"flights": 300, "realisations": 5}, "realisations: 5: 300 simulations are too few.*give flights 500 or more"),
     ],
 )
 @pytest.mark.usefixtures("fmus")

@@ -32,7 +32,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
         return
     for option, value in (("`workers`", workers), ("`engine`", engine)):
         if value is not None:
-            problem = "the cluster's own workers fly, in as many threads as they have"
+            problem = "the cluster's workers simulate, each with its own number of threads"
             raise InputError(option, str(value), problem, f"leave it or {OPTION} out")
     distributed = _import_distributed()
     with _quiet(), _client(distributed, address) as client:
@@ -58,7 +58,7 @@ def _import_distributed() -> Any:
     try:
         return importlib.import_module("distributed")
     except ImportError as error:
-        problem = "flights elsewhere need the package distributed, which is not installed"
+        problem = "simulation on a cluster needs the package distributed, which is not installed"
         raise InputError(OPTION, "", problem, "pip install 'perilune[cluster]'") from error
 
 
@@ -69,9 +69,9 @@ def _client(distributed: Any, address: str) -> Iterator[Any]:
         try:
             client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
-            problem = "no dask scheduler answers there"
+            problem = "no dask scheduler answers at this address"
             raise InputError(
-                OPTION, address, problem, "start one: dask scheduler; and give its tcp://HOST:PORT"
+                OPTION, address, problem, "start one with dask scheduler, and give its tcp://HOST:PORT"
             ) from error
         with client:
             yield client
@@ -82,8 +82,8 @@ def _look_at_workers(client: Any, address: str) -> None:
     try:
         client.wait_for_workers(1, timeout=FIRST_WORKER)
     except TimeoutError as error:
-        problem = f"no worker has come within {FIRST_WORKER:g} s"
-        raise InputError(OPTION, address, problem, f"start some: dask worker {address}") from error
+        problem = f"no worker has connected within {FIRST_WORKER:g} s"
+        raise InputError(OPTION, address, problem, f"start one with dask worker {address}") from error
     ours = identity()
     for worker, theirs in sorted(client.run(identity, on_error="return").items()):
         refuse_others(ours, theirs, worker)

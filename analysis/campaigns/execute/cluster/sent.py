@@ -39,12 +39,14 @@ def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str)
     if isinstance(theirs, BaseException):
         problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
     elif theirs[0] != ours[0]:
-        problem = f"worker {worker} has perilune {theirs[0]}, the campaign is flown from {ours[0]}"
+        problem = f"worker {worker} has perilune {theirs[0]}, this process has {ours[0]}"
     elif theirs != ours:
         problem = f"worker {worker} has other sources of perilune {ours[0]}"
     else:
         return
-    raise InputError("`scheduler`", "", problem, "install the same in its environment, then start it again")
+    raise InputError(
+        "`scheduler`", "", problem, "install this version in the worker's environment, then restart the worker"
+    )
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,9 @@ def make_sent(campaign: LoadedCampaign) -> Sent:
     else:
         described, contents = gather(campaign.plan, campaign.systems)
         if described != manifest:
-            raise InputError(campaign.plan.system, "", "its files change while it is read", "fly it again")
+            raise InputError(
+                campaign.plan.system, "", "its files changed while they were read", "run the command again"
+            )
         draws = b"" if campaign.plan.is_counted else _draws(campaign)
     key = hashlib.sha256(json.dumps(manifest.document(), sort_keys=True).encode() + draws).hexdigest()
     in_child = not in_threads(campaign.systems.values(), None)

@@ -51,11 +51,11 @@ class Cluster:
                     yield from tasks.collect(future)
         except ImportError as error:
             problem = f"a worker cannot load perilune: {error}"
-            raise InputError("`scheduler`", "", problem, "install the same in its environment") from error
+            raise InputError("`scheduler`", "", problem, "install this version in the worker's environment") from error
         except (CancelledError, OSError) as error:
             if client.status == "running" and not isinstance(error, (CancelledError, CommClosedError)):
                 raise  # a worker's disk is full, say
-            raise WorkersDiedError(f"the scheduler {self._address} is gone") from error
+            raise WorkersDiedError(f"the scheduler {self._address} no longer answers") from error
         finally:
             if tasks.under_way:
                 self._end(list(tasks.under_way), tasks.key)
@@ -151,4 +151,4 @@ def _what_ends_them(tasks: Sequence[Task]) -> str:
     """Return a description of the tasks, each of one trial, whose workers keep dying."""
     names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
-    return f"workers end again and again with {names[0]}{more}"
+    return f"workers ended repeatedly during {names[0]}{more}"

@@ -106,7 +106,7 @@ def _surface(reader: SignalReader, element: etree._Element) -> Surface:
         raise reader.refuse(element, "a sphere without radius", 'write radius="COMPONENT.VARIABLE"')
     radius = reader.parameter(element, "radius")
     if not radius > 0.0:
-        raise reader.refuse(element, f"radius {attributes['radius']} is {radius:g}", "name that of the ground")
+        raise reader.refuse(element, f"radius {attributes['radius']} is {radius:g}", "name the radius of the ground")
     return Surface(name, radius, read_vector(reader, element, "centre", (0.0, 0.0, -radius)))
 
 

@@ -62,7 +62,7 @@ def failure_section(content: BatchContent) -> Section:
     """Return failures over the inputs with the most influence on success, and the influence of all inputs."""
     rates = {variant: entry.success_rate for variant, entry in content.batch.summary.items()}
     nodes: list[Node] = []
-    for rate, text in ((1.0, "no failures"), (0.0, "all trials failed, so that no influence can be computed")):
+    for rate, text in ((1.0, "no failures"), (0.0, "all trials failed, so no influence can be computed")):
         variants = [variant for variant, each in rates.items() if each == rate]
         if variants:
             nodes.append(Missing(f"{text}: {', '.join(variants)}"))

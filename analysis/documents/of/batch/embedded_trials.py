@@ -73,7 +73,7 @@ def trials_notes(batch: CampaignResult) -> list[str]:
     notes = [
         "A mark, or a point of a distribution, names its trial; a click pins it with its replay command, a drag "
         f"selects trials in all figures. Numbers of the first {EXACT_LIMIT} failures of each variant and of trials "
-        'with an extreme metric are exact; others are rounded, which "about" states.'
+        'with an extreme metric are exact; others are rounded and marked "about".'
     ]
     for variant, plotted in batch.plotted.items():
         rows = min(_row_limit(batch), len(plotted.dots.trial))

@@ -13,7 +13,7 @@ def recorded_sections(batch: CampaignResult) -> list[Section]:
     embedded = embedded_flights(batch)
     if embedded is None:
         return []
-    pinned = Note("A pinned trial has its signals over time next to its numbers.")
+    pinned = Note("A pinned trial shows its signals over time next to its numbers.")
     nodes: list[Node] = [
         *([Scene(embedded.scene.scene, notes=embedded.scene.notes)] if embedded.scene is not None else []),
         Note(" ".join(embedded.notes)),

@@ -78,9 +78,9 @@ def _replay_section(content: ComparisonContent) -> list[Section]:
     if not content.replays:
         return []
     note = Note([
-        "The first failures of each variant, and its worst trials of metrics with a limit; they need only the "
+        "The first failures of each variant, and its worst trials of metrics with a limit; replays need only the "
         "campaign's folder and are bit-identical. ", Code("--output F.csv"), " keeps all signals, ",
-        Code("--report F.html"), " writes the flight's page.",
+        Code("--report F.html"), " writes the page of the run.",
     ])  # fmt: skip
     nodes: list[Node] = [replay_table(content.replays, "ended, worst of metrics"), note]
     return [Section("Replay commands", nodes, is_folded=True)]

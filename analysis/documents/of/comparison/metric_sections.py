@@ -64,7 +64,7 @@ def rate_section(content: ComparisonContent) -> Section:
 
 def metric_section(content: ComparisonContent) -> Section:
     """Return the statistics of metrics."""
-    nodes: list[Node] = [Missing("the campaign declares no metrics but rates")]
+    nodes: list[Node] = [Missing("the campaign declares only metrics that are rates")]
     if content.comparison.metrics:
         note = (
             "Percentiles are order statistics, infinite values included. The other columns, and the number of trials, "
@@ -101,7 +101,7 @@ def pair_section(content: ComparisonContent) -> Section:
     """Return differences of rates and metrics between pairs of variants, trial by trial."""
     heading = "Paired comparison"
     if not content.comparison.pairs:
-        return Section(heading, [Missing("there is one variant only: nothing to pair")], is_folded=True)
+        return Section(heading, [Missing("there is only one variant: no pairs")], is_folded=True)
     nodes: list[Node] = [_reference_text(content), Group("Rates", _rate_nodes(content))]
     if content.metric_groups:
         nodes.append(Group("Metrics, trials in which both succeed", _metric_nodes(content)))

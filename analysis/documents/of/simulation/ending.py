@@ -13,12 +13,12 @@ from ...figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigu
 from .figures.limits import LimitVerdict, evaluate, limit_lines
 
 REMEDIES = {
-    "nonfinite": "see what drives it with `output`",
-    "interrupted": "what was flown until then is in the files",
-    "timed_out": "what was flown until then is in the files; give it longer, or see what takes so long with `log`",
-    "crashed": "what was flown until then is in the files; see what the FMU logs with `log`",
-    "hung": "what was flown until then is in the files; see what the FMU logs with `log`",
-    "out_of_memory": "what was flown until then is in the files; give it more with `memory`",
+    "nonfinite": "see the signals that lead to it with `output`",
+    "interrupted": "the files hold the simulation until then",
+    "timed_out": "the files hold the simulation until then; give a longer limit, or see the slow step with `log`",
+    "crashed": "the files hold the simulation until then; see the FMU's messages with `log`",
+    "hung": "the files hold the simulation until then; see the FMU's messages with `log`",
+    "out_of_memory": "the files hold the simulation until then; give more memory with `memory`",
 }
 
 
@@ -40,7 +40,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaratio
         remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
         lines.append(f"{' '.join(result.message.split())}; {remedy}")
     elif _is_cut_off(prepared, result):
-        lines.append(f"{FINISHED} was never true until the stop time, {result.time[-1]:g} s; give `stop_time`")
+        lines.append(f"{FINISHED} was not true before the stop time, {result.time[-1]:g} s; give `stop_time`")
     for figure in figures if result.complete else ():
         if isinstance(figure, LimitsFigure):
             named = {

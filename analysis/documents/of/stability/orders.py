@@ -47,7 +47,7 @@ def withheld_line(report: StabilityStudy, subject: LoopReport | JointReport, ite
     return (
         f"loop {subject.name} at {subject.point}: {item.title} withheld: {_value(item)} without feedthrough of "
         f"{report.orders.fmus}, {_value(item.as_feedthrough)} with it, limit {item.limit:g}{_unit(item)}; "
-        f"say {options}, or take a smaller step"
+        f"give {options}, or use a smaller step"
     )
 
 

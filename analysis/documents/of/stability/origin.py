@@ -32,7 +32,7 @@ def origin_nodes(report: StabilityStudy) -> list[Node]:
             ],
         ),
         Group("Parameters", [listed if parameters else Missing("no parameter was set: the FMUs' own values hold")]),
-        Group("Hashes", [fold_long(hashes, "hashes") if hashes.rows else Missing("the study names no file")]),
+        Group("Hashes", [fold_long(hashes, "hashes") if hashes.rows else Missing("the study uses no file")]),
         Note("Gains are displayed in dB; the exact value of each is its factor."),
     ]
 

@@ -130,7 +130,7 @@ def robust(loop: LoopReport) -> Part:
         ("— gain, upper and lower, dB", token or in_decibels(margins.disk_gain, "without limit"), ""),
         ("— phase, deg", token or in_degrees(margins.disk_phase), ""),
     ]
-    note = "The closed loop is unstable: peaks of the response bound nothing." if loop.margins.unstable else ""
+    note = "The closed loop is unstable: the peaks of the response are not bounds." if loop.margins.unstable else ""
     return Part("robust", "Robust", Table(["quantity", *numbers("value", "at rad/s")], rows), note)
 
 

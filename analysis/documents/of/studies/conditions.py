@@ -14,7 +14,7 @@ from ..campaign.origin import fmu_rows, parameter_table
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [
     "the samples were not written: with ", Code("--output DIR"), " (in Python ", Code("output="),
-    ") they are, and the command that replays them stands here",
+    ") they are written, and the command that replays them is shown here",
 ]  # fmt: skip
 
 

@@ -39,7 +39,7 @@ def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:
                     "The limit state is 0 or more where the failure occurs. Blue: the threshold of the next level, "
                     "which the worst samples of this one exceed; numbers: levels. Dashed: the failure. From level 2 "
                     "on, chains propose candidates, and those below the level's own threshold are rejected; they are "
-                    "drawn, too."
+                    "also plotted."
                 ),
             ],
             condition,
@@ -82,9 +82,9 @@ def _bound(study: RareOutcome) -> Rich:
     """Return why levels ended, and how many Monte Carlo simulations would bound smaller probabilities."""
     trials = study.brute_force
     if trials is None:
-        return f"{study.why_levels_ended}; what is below that level is bounded as Monte Carlo bounds it"
+        return f"{study.why_levels_ended}; probabilities below that level are bounded as in a Monte Carlo analysis"
     return [
-        f"{study.why_levels_ended}; what is below that level is bounded as by ", Quantity(trials, digits=2),
+        f"{study.why_levels_ended}; probabilities below that level are bounded as by ", Quantity(trials, digits=2),
         " Monte Carlo simulations; a bound ten times lower takes ", Quantity(10.0 * trials, digits=2),
     ]  # fmt: skip
 

@@ -57,8 +57,8 @@ def _drivers(study: SensitivityOutcome) -> list[Node]:
     table: list[Node] = [
         driver_table(study),
         Note(
-            "First order: the fraction of a metric's variance that a parameter makes alone. Total: the fraction that "
-            "would be left if all others were known. A sum of first-order indices well below 1: parameters act "
+            "First order: the fraction of a metric's variance caused by a parameter alone. Total: the fraction that "
+            "would remain if all others were known. A sum of first-order indices well below 1: parameters act "
             "together. They are estimates, which scatter below 0 and above 1, too."
         ),
         *([Note(f"Intervals wider than {WIDE}: {', '.join(wide)}. {advice}")] if wide else []),
@@ -136,7 +136,7 @@ def _on_ranks(study: SensitivityOutcome) -> str:
     count = 2 * study.base
     noise = " Noise realisations have no order and no rank." if study.noise.sources else ""
     return (
-        f"Spearman's, over the {count} independent simulations of the plan. They see what rises or falls with a "
-        f"parameter and nothing else; correlations around {number(2.0 / count**0.5, 2)} and below are not significant "
+        f"Spearman's, over the {count} independent simulations of the plan. They measure monotonic dependence "
+        f"only; correlations around {number(2.0 / count**0.5, 2)} and below are not significant "
         f"(5 %).{noise}"
     )

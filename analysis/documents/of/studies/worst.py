@@ -144,7 +144,7 @@ def _noise(study: WorstOutcome) -> str:
     assert study.over is not None
     count = study.over.count
     if study.noise_matters is False:
-        return f"changes none of the random trials in {count} realisations, so that the search has one"
+        return f"changes none of the random trials in {count} realisations, so the search uses one"
     return f"the same {'realisation' if count == 1 else f'{count} realisations'} at every point"
 
 

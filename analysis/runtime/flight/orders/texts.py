@@ -67,7 +67,7 @@ class TextSlots:
             content = bytes.fromhex(initial) if self._is_binary else initial.encode()
         except ValueError:
             raise InputError(
-                self._file, name, f"{initial[:20]!r} is not hexadecimal", "write two digits a byte"
+                self._file, name, f"{initial[:20]!r} is not hexadecimal", "write two digits per byte"
             ) from None
         if len(content) >= self.longest:
             kind = "a binary value" if self._is_binary else "a string"

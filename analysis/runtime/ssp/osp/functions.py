@@ -39,7 +39,7 @@ class TransformedSum:
         if signal not in self.inputs:
             raise FunctionError(f"{self.name} has no signal {signal}", f"use {', '.join(self.inputs)} or {OUT}")
         if self.inputs[signal] is not None:
-            raise FunctionError(f"a second connection to {signal} of {self.name}", "remove one of them")
+            raise FunctionError(f"a second connection to {signal} of {self.name}", "remove one of the two")
         self.inputs[signal] = self._check(points)
 
     def connect_output(self, points: list[Point]) -> list[tuple[Point, list[Point]]]:
@@ -54,7 +54,7 @@ class TransformedSum:
     def _check(self, points: list[Point]) -> list[Point]:
         if len(points) != self.dimension:
             problem = f"{len(points)} variables for a signal of {self.dimension} of {self.name}"
-            raise FunctionError(problem, "join as many")
+            raise FunctionError(problem, "connect as many variables")
         return points
 
 
@@ -68,7 +68,7 @@ def read_function(element: etree._Element) -> TransformedSum:
         gain = Transformation(_number(element, "factor", "1"), _number(element, "offset", "0"))
         return TransformedSum(name, 1, gain, {IN: None})
     if kind not in ("Sum", "VectorSum"):
-        raise FunctionError("functions of this kind are not supported", "use an FMU that does it")
+        raise FunctionError("functions of this kind are not supported", "replace the function by an FMU")
     inputs = {f"{IN}[{index}]": None for index in range(_count(element, "inputCount"))}
     return TransformedSum(name, _count(element, "dimension") if kind == "VectorSum" else 1, IDENTITY, {**inputs})
 

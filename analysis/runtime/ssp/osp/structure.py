@@ -97,12 +97,12 @@ class _StructureReader:
     def simulator(self, element: etree._Element) -> None:
         name, source = element.get("name", ""), source_file(element.get("source", ""))
         if is_elsewhere(source):
-            problem = f"source {source} of {name} is of another process or machine"
+            problem = f"source {source} of {name} is in another process or machine"
             raise self.refuse(element, problem, "name a file of this system")
         if not names_fmu(source):
             raise self.refuse(element, f"source {source} of {name} is not an .fmu", "name the file of an FMU")
         if name in self.system.elements:
-            raise self.refuse(element, f"a second one of the name {name}", "rename one")
+            raise self.refuse(element, f"a second simulator named {name}", "rename one")
         values = element.findall("{*}InitialValues/{*}InitialValue")
         self.system.elements[name] = Component(
             name=name,
@@ -133,7 +133,7 @@ class _StructureReader:
         except FunctionError as error:
             raise self.refuse(element, error.problem, error.remedy) from error
         if function.name in self.functions:
-            raise self.refuse(element, f"a second one of the name {function.name}", "rename one")
+            raise self.refuse(element, f"a second function named {function.name}", "rename one")
         self.functions[function.name] = function
 
     def connections(self, elements: list[etree._Element]) -> None:
@@ -157,7 +157,9 @@ class _StructureReader:
                 else:
                     self.connect_input(function, signal, points)
             else:
-                raise self.refuse(element, f"joins {' and '.join(kinds)}, which is not supported", "join variables")
+                raise self.refuse(
+                    element, f"connects {' and '.join(kinds)}, which is not supported", "connect variables"
+                )
         for function, points, element in outputs:
             self.connect_output(function, points, element)
 
@@ -193,7 +195,7 @@ class _StructureReader:
         sides = [self.points(end) for end in ends]
         if len(sides[0]) != len(sides[1]):
             problem = f"groups of {len(sides[0])} and {len(sides[1])} variables"
-            raise self.refuse(connection, problem, "join groups of one kind")
+            raise self.refuse(connection, problem, "connect groups of one kind")
         for start, stop in zip(*sides, strict=True):
             self.connect([start], stop, IDENTITY, connection.sourceline)
 

@@ -90,7 +90,7 @@ class FrameReader(AnnotationReader):
         names = tuple(element.get(attribute, "").split())
         twice = [name for name in names if names.count(name) > 1]
         if twice:
-            raise self.refuse(element, f"{attribute}: {twice[0]} is there twice", "write another name for each")
+            raise self.refuse(element, f"{attribute}: {twice[0]} is there twice", "give each axis a different name")
         return names
 
     def check_count(self, element: etree._Element, attribute: str, names: Collection[str], members: list[str]) -> None:
@@ -99,7 +99,7 @@ class FrameReader(AnnotationReader):
             problem = (
                 f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
             )
-            raise self.refuse(element, problem, "write as many")
+            raise self.refuse(element, problem, "write as many names")
 
 
 def one_dimensional(name: str, known: Collection[str]) -> list[str]:

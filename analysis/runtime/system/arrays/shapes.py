@@ -44,12 +44,12 @@ class Shapes:
                         shapes[name] = tuple(each.size for each in signal.dimensions)
         if self.without_arrays:
             names = ", ".join(self.without_arrays)
-            note = f"array connectors of FMI 2.0 FMUs ({names}), where SSP 2.0 has one for each element"
+            note = f"array connectors of FMI 2.0 FMUs ({names}), which need one connector per element"
             description.notes.append(note)
         self._settle(shapes)
         for name, shape in shapes.items():
             if None in shape:
-                problem = f"dimension {shape.index(None) + 1} has no size, nor has what it is connected to"
+                problem = f"dimension {shape.index(None) + 1} has no size, neither here nor at the other ends"
                 raise InputError(description.file, declared[name].at(name), problem, "write size or sizeConnector")
         self.known: dict[str, Shape] = {name: tuple(each or 0 for each in shape) for name, shape in shapes.items()}
         ARRAY_ELEMENTS.check(sum(math.prod(shape) for shape in self.known.values()), description.file, "Dimension")
@@ -75,7 +75,7 @@ class Shapes:
         if actual is None:
             if math.prod(each or 0 for each in shape) == 0 and None not in shape:
                 return shape  # without an element, which an FMU has no name for
-            known = "is a scalar in" if connector.name in fmu.variables else "is no array of"
+            known = "is a scalar in" if connector.name in fmu.variables else "is not an array of"
             raise InputError(
                 self.description.file, where, f"{known} {fmu.label}", "correct its Dimensions or use another FMU"
             )

@@ -70,7 +70,7 @@ class Sizes:
         where = f"{path}{array}, Dimension (line {dimension.line})"
         connector = owner.connectors.get(name)
         if connector is None or connector.kind not in SIZES or connector.dimensions:
-            problem = f"sizeConnector {name} is no structural parameter and no constant of {owner.name}"
+            problem = f"sizeConnector {name} is neither a structural parameter nor a constant of {owner.name}"
             raise InputError(self.description.file, where, problem, "correct it, or write size")
         full = path + name
         chain = self._chain(full)
@@ -125,8 +125,8 @@ class Sizes:
         except ValueError:
             size = -1
         if size < 0:
-            problem = f"{name} has no value" if given is None else f"{name} is {given}, which is no size"
-            raise InputError(self.description.file, where, problem, "give it one in a parameter set")
+            problem = f"{name} has no value" if given is None else f"{name} is {given}, which is not a valid size"
+            raise InputError(self.description.file, where, problem, "give it a value in a parameter set")
         return size
 
 

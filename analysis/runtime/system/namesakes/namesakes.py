@@ -69,8 +69,8 @@ def _check(fmu: Fmu, present: Mapping[tuple[str, str], _Loaded], modules: Callab
         if other is not None:
             if each.digest != other.bundled.digest and not (each.is_main and other.bundled.is_main):
                 problem = f"another {each.kind} {each.name} is {other.bundled.file} of {other.fmu.label}"
-                remedy = f"{REMEDIES[each.kind]}, in one of both FMUs"
-                raise InputError(fmu.label, each.file, f"{problem}, and a process has one only", remedy)
+                remedy = f"{REMEDIES[each.kind]}, in one of the two FMUs"
+                raise InputError(fmu.label, each.file, f"{problem}, and a process can load only one", remedy)
         elif each.kind == MODULE and _is_installed(each.name):
             _check_module(fmu, each, modules())
 
@@ -84,7 +84,7 @@ def _check_module(fmu: Fmu, module: Bundled, modules: Files) -> None:
     if path is not None and path.name == "__init__.py":
         path = path.parent
     if path is None or not path.exists() or module_digest(path) != module.digest:
-        problem = f"Perilune has loaded another module {module.name}, and a process has one only"
+        problem = f"Perilune has loaded another module {module.name}, and a process can load only one"
         raise InputError(fmu.label, module.file, problem, REMEDIES[MODULE])
 
 

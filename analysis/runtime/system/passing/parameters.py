@@ -33,7 +33,7 @@ def pass_parameters(network: Network, settings: SystemSettings) -> None:
             if brought is not None:
                 settings.nodes[source.name] = brought[1]
             elif source.name not in settings.nodes:
-                remedy = f"give it one in a parameter set, or `set` {source.name}=VALUE"
+                remedy = f"give it a value in a parameter set, or `set` {source.name}=VALUE"
                 raise network.refuse(link.where, f"{source.name} has no value", remedy)
 
 

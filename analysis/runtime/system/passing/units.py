@@ -37,8 +37,8 @@ def check_offset(network: Network, node: Node, source: Unit, target: Unit, file:
     Raises InputError.
     """
     if node.name in network.mixed and source.offset != target.offset:
-        problem = f"{node.name} is connected with values and with differences (relativeQuantity)"
-        problem += f", so that the offset between {source.name} and {target.name} fits one of them alone"
+        problem = f"{node.name} is connected both with values and with differences (relativeQuantity)"
+        problem += f", so that the offset between {source.name} and {target.name} applies to only one of them"
         raise InputError(file, where, problem, "use a connector for each, or the unit of the components")
 
 

@@ -142,7 +142,7 @@ static COLD Status refuse_point(Component *component, double point)
     char point_text[REPR_SIZE];
     char here_text[REPR_SIZE];
     return fail(component,
-        "StepError: the step begins at %s s, and the FMU is at %s s; go on from there, or restore its state of then",
+        "StepError: the step begins at %s s, and the FMU is at %s s; continue from there, or restore the state at the step's beginning",
         python_repr(point, point_text), python_repr(component->now.time, here_text));
 }
 

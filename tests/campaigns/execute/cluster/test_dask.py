@@ -149,7 +149,7 @@ def test_a_cluster_that_is_gone(line, tmp_path, capsys, monkeypatch, lost):
         watch.join()
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
+    assert {"scheduler": "no longer answers", "workers": "had no worker for 2 s"}[lost] in said
     assert f"; completed trials are stored in {out}: resume with the same command and --resume, or with shard" in said
     assert main([*line, "--output", str(out), "--resume"]) == 0
     assert main([*line, "--output", str(tmp_path / f"complete_{lost}"), "--workers", "1"]) == 0
@@ -173,10 +173,13 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(cluster, line, whole, place, cap
 def test_what_is_refused_costs_no_results(cluster, line, whole, place, capsys, monkeypatch):
     out = ["--output", str(place / "whole"), "--overwrite"]
     for options, words in (
-        (["--scheduler", "tcp://127.0.0.1:1"], "--scheduler: tcp://127.0.0.1:1: no dask scheduler answers there"),
-        (["--scheduler", "nowhere"], "--scheduler: nowhere: no dask scheduler answers there"),
-        (["--scheduler", cluster.address, "--workers", "2"], "--workers: 2: the cluster's own workers fly"),
-        (["--scheduler", cluster.address, "--engine", "threads"], "--engine: threads: the cluster's own workers fly"),
+        (
+            ["--scheduler", "tcp://127.0.0.1:1"],
+            "--scheduler: tcp://127.0.0.1:1: no dask scheduler answers at this address",
+        ),
+        (["--scheduler", "nowhere"], "--scheduler: nowhere: no dask scheduler answers at this address"),
+        (["--scheduler", cluster.address, "--workers", "2"], "--workers: 2: the cluster's workers simulate"),
+        (["--scheduler", cluster.address, "--engine", "threads"], "--engine: threads: the cluster's workers simulate"),
     ):
         monkeypatch.setattr(connection, "ANSWER", 0.5)
         assert main([*line, *out, *options]) == 2
@@ -217,7 +220,7 @@ OTHERS = {
 def test_no_worker_comes(line, tmp_path, monkeypatch, refusal):
     monkeypatch.setattr(connection, "FIRST_WORKER", 0.2)
     with dask_cluster(tmp_path, workers=0) as alone:
-        words = f"no worker has come within 0.2 s; start some: dask worker {alone.address}"
+        words = f"no worker has connected within 0.2 s; start one with dask worker {alone.address}"
         assert words in refusal([*line, "--scheduler", alone.address])
 
 
@@ -241,7 +244,7 @@ def test_what_is_said_of_another_perilune():
     for theirs, words in (
         (
             ("0.1.0", "ab"),
-            "worker w has perilune 0.1.0, the campaign is flown from 0.2.0; install the same in its environment",
+            "worker w has perilune 0.1.0, this process has 0.2.0; install this version in the worker's environment",
         ),
         (("0.2.0", "cd"), "worker w has other sources of perilune 0.2.0;"),
         (ModuleNotFoundError("No module named 'perilune'"), "cannot load perilune: No module named 'perilune';"),
@@ -251,7 +254,7 @@ def test_what_is_said_of_another_perilune():
         assert words in str(caught.value)
 
 
-@pytest.mark.filterwarnings("ignore:.*a process for every simulation")
+@pytest.mark.filterwarnings("ignore:.*one process per simulation")
 def test_trials_of_foreign_fmus_are_those_of_one_worker(cluster, tmp_path):
     """FMUs that leave something in their thread, process or folder."""
     system, campaign = coupled_system(tmp_path)

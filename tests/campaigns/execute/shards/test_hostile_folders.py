@@ -102,17 +102,20 @@ MANIFESTS = {
     ),
     "another key": (lambda it: it.update(more=1), "more: not as this version of perilune writes it"),
     "a key less": (lambda it: it.pop("seed"), "missing required field seed"),
-    "a file elsewhere": (lambda it: it["campaign"].update(content="../../x"), "not the name of a content"),
-    "nothing compared": (lambda it: it["campaign"].update(compare={}), "campaign: it compares nothing"),
+    "a file elsewhere": (lambda it: it["campaign"].update(content="../../x"), "not a SHA-256"),
+    "nothing compared": (
+        lambda it: it["campaign"].update(compare={}),
+        "campaign: the manifest has neither a comparison nor a selected variant",
+    ),
     "an option of trust": (lambda it: it["options"].update(in_process=True), "options.in_process: not an option"),
     "an option's type": (lambda it: it["options"].update(step="x"), "options.step: expected `float | null`"),
     "an FMU elsewhere": (
         lambda it: it["options"].update(use={"guidance": "/tmp/other.fmu"}),
-        "/tmp/other.fmu is not among the files that the campaign's folder holds",
+        "/tmp/other.fmu is not among the files in the campaign's folder",
     ),
     "parameters elsewhere": (
         lambda it: it["options"].update(parameters=["/etc/hostname"]),
-        "/etc/hostname is not among the files that the campaign's folder holds",
+        "/etc/hostname is not among the files in the campaign's folder",
     ),
 }
 

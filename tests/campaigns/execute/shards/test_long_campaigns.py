@@ -131,7 +131,8 @@ def test_more_trials_than_a_table_has(counted, tmp_path, capsys):
     (tmp_path / "plain.toml").write_text(plain)
     assert main(["batch", SYSTEM, "--campaign", str(tmp_path / "plain.toml"), "--trials", "1000002"]) == 2
     assert (
-        'at most that are drawn as one table; give fewer, or write draw_scheme = "counter"' in capsys.readouterr().err
+        'at most that are drawn as one table; give fewer trials, or write draw_scheme = "counter"'
+        in capsys.readouterr().err
     )
 
 
@@ -148,8 +149,8 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     assert shaky.first.metrics["miss"].tolist() == whole.trials["shaky"].metrics["miss"][:30].tolist()
     assert shaky.dots.draws["offset"].tolist() == whole.plan.draws.columns["offset"][order].tolist()
     seen = np.count_nonzero(failed < 30) + 4
-    assert shaky.note == f"the first 30 of 100 trials; those over two values {seen} of {failed.size} failures, too"
-    assert result.plotted["steady"].note == "the first 30 of 100 trials; those over two values all failures, too"
+    assert shaky.note == f"the first 30 of 100 trials; scatter plots also show {seen} of {failed.size} failures, too"
+    assert result.plotted["steady"].note == "the first 30 of 100 trials; scatter plots also show all failures, too"
     write_batch_page(result, tmp_path / "page.html", "Long")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert f"plots and rank correlations use {shaky.note}." in " ".join(page.split())

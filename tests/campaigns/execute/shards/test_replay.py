@@ -137,7 +137,9 @@ def test_a_replay_that_is_cut_off_says_nothing_of_the_rest(tmp_path, capsys, mon
     captured = capsys.readouterr()
     assert "equal to the stored trial" not in captured.out
     (line,) = [line for line in captured.err.splitlines() if "is stored" in line]
-    assert line.endswith("trial 0: status 'finished' is stored, 'timed_out' was flown: the rest is not compared")
+    assert line.endswith(
+        "trial 0: status 'finished' is stored, 'timed_out' was simulated: other results are not compared"
+    )
 
 
 def test_a_campaign_that_has_not_flown(folder, tmp_path, capsys):
@@ -244,7 +246,7 @@ def test_an_output_that_the_campaign_does_not_read_may_overflow(tmp_path, monkey
     options = {"stop_time": 4.0, "step": 1.0}
     batch = perilune.batch("growing.fmu", "reads_y.toml", workers=1, output="out", **options)
     assert {status for trials in batch.trials.values() for status in trials.statuses} == {"stop_time"}
-    with pytest.warns(UserWarning, match=r"growing\.z .*; the campaign does not read it: left out"):
+    with pytest.warns(UserWarning, match=r"growing\.z .*; omitted, since the campaign does not use it"):
         actual = perilune.replay("out", 1)
     assert (actual.status, actual.differences, actual.metrics) == ("stop_time", (), {"last": 4.0})
     assert actual["growing.y"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]

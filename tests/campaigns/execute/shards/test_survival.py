@@ -48,7 +48,7 @@ def test_shards_one_by_one_in_any_order(whole, tmp_path, capsys):
     capsys.readouterr()
     assert main(["merge", out]) == 2
     missing = numbers[-1]
-    words = f"shards {missing}: 1 of 5 shards are missing; perilune shard {out} {missing} flies them"
+    words = f"shards {missing}: 1 of 5 shards are missing; perilune shard {out} {missing} simulates them"
     assert words in capsys.readouterr().err
     assert main(["shard", out, "0-4"]) == 0
     assert "shards: 1 simulated, 4 already complete, 0 of 5 missing" in capsys.readouterr().out
@@ -91,7 +91,7 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(whole, tmp_path, capsys, refusal
     assert hint in capsys.readouterr().err
     assert not (out / "summary.json").exists()
     assert 2 <= shards_in(out) < 5
-    assert "summary.json: not found; resume it: the batch's command with resume" in refusal(
+    assert "summary.json: not found; complete it: repeat the batch's command with resume" in refusal(
         ["compare", str(out), "--report", str(tmp_path / "page.html")]
     )
     assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
@@ -157,9 +157,9 @@ def test_killed_workers_fly_again(tmp_path):
 REFUSED = {
     "another seed": (
         ["--seed", "9"],
-        "manifest.json: another campaign than the one asked for: seed was 20170700, is 9",
+        "manifest.json: holds another campaign: seed was 20170700, is 9",
     ),
-    "fewer trials": (["--trials", "20"], "trials: holds a campaign of 30 trials, 20 are asked for"),
+    "fewer trials": (["--trials", "20"], "trials: holds a campaign of 30 trials, not 20"),
     "a value": (["--set", "plant.initial_mass=900"], "options.set.plant.initial_mass was nothing, is 900"),
     "a comparison": (["--compare", "guidance=analytic_guidance"], "campaign.compare.guidance was"),
 }
@@ -194,7 +194,7 @@ def test_what_flies_is_what_the_folder_holds(begun, tmp_path, refusal):
     fmu = next((copy / "files").glob("*.fmu"))
     retained = fmu.read_bytes()
     fmu.write_bytes(retained[:-1])
-    assert f"{fmu.name}: its content is not the one that it is named by" in refusal(["shard", str(copy), "0"])
+    assert f"{fmu.name}: its SHA-256 does not match its name" in refusal(["shard", str(copy), "0"])
     fmu.write_bytes(retained)
     assert main(["shard", str(copy), "0"]) == 0
     assert bytes_of(copy / "trials") == bytes_of(folder / "trials")
@@ -210,7 +210,7 @@ def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, 
     assert main(repeated) == 2
     said = capsys.readouterr().err
     assert f"{shard}: cannot be read as parquet" in said
-    assert "remove it: the batch's command with --resume flies what is missing" in said
+    assert "remove it: the batch's command with --resume simulates its trials again" in said
     shard.unlink()
     assert main(repeated) == 0
     assert bytes_of(copy) == bytes_of(folder)
@@ -218,7 +218,7 @@ def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, 
 
 MISTAKES = {
     "threads": (["--overwrite", "--flavour", "python", "--engine", "threads"], "--engine: threads: Python FMUs"),
-    "resume and overwrite": (["--overwrite", "--resume"], "--resume: --overwrite: one keeps what is stored"),
+    "resume and overwrite": (["--overwrite", "--resume"], "--resume: --overwrite: one keeps the stored results"),
     "neither": ([], "holds results already (manifest.json, trials, draws.parquet, summary.json)"),
 }
 

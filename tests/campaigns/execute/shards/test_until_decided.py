@@ -74,6 +74,6 @@ def test_it_ends_where_it_is_decided(campaign, whole, tmp_path, capsys):
 
 
 def test_there_must_be_something_to_decide(refusal):
-    assert "--until-decided: the campaign has no requirement; declare what is to be decided" in refusal(
+    assert "--until-decided: the campaign has no requirement; declare a [requirement" in refusal(
         ["batch", SYSTEM, "--campaign", "paper", "--until-decided"]
     )

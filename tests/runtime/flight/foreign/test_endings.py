@@ -24,7 +24,7 @@ def test_the_rows_are_those_of_fmpy(tmp_path, end):
         str(tmp_path / "odd.fmu"), stop_time=1.0, output_interval=0.25, output=["y", "tolerance", "length"]
     )
     assert (result.status, result.complete) == ("terminated", True)
-    assert result.message == f"odd asked for the end at t = {end:g} s"
+    assert result.message == f"odd asked for termination at t = {end:g} s"
     np.testing.assert_array_equal(result.time, truth["time"])
     for name in ("y", "tolerance", "length"):
         np.testing.assert_array_equal(result[f"odd.{name}"], truth[name])
@@ -35,7 +35,7 @@ def test_an_end_at_a_time_outside_its_step_is_a_failure(tmp_path, said, last):
     """It is asked for in the step from 0.5 s to 0.75 s."""
     flight = perilune.simulate(odd_fmu(tmp_path, ENDS_AT=0.6, SAYS_TIME=said))
     outside = f"lastSuccessfulTime {last} s, which is not in its step from 0.5 s to 0.75 s"
-    message = f"odd: fmi2DoStep asked for the end by discard with {outside}: no message in its log"
+    message = f"odd: fmi2DoStep asked for termination with status discard with {outside}: no message in its log"
     assert (flight.status, flight.message, flight.time[-1]) == ("failed", message, 0.5)
 
 

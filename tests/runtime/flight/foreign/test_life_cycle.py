@@ -26,11 +26,14 @@ GOOD = (
     {"ENDS_AT": 0.6},
 )
 BAD = (
-    ({"KEEPS_STATE": True}, "after its reset it flies other than a fresh instance"),
-    ({"KEEPS_PARAMETERS": True}, "after its reset it flies other than a fresh instance"),
-    ({"REPORTS_OLD_GAIN": True}, "after its reset parameters have other values than in a fresh instance"),
-    ({"RESET": 3}, "after a flight fmi2Reset returned status 3"),
-    ({"ANSWERS": 3, "AT": 0.5}, "it cannot be tried on its declared starts: fmi2DoStep returned status 3"),
+    ({"KEEPS_STATE": True}, "after a reset its results differ from those of a fresh instance"),
+    ({"KEEPS_PARAMETERS": True}, "after a reset its results differ from those of a fresh instance"),
+    ({"REPORTS_OLD_GAIN": True}, "after a reset its parameters differ from those of a fresh instance"),
+    ({"RESET": 3}, "after a simulation fmi2Reset returned status 3"),
+    (
+        {"ANSWERS": 3, "AT": 0.5},
+        "its reset cannot be tested with its declared start values: fmi2DoStep returned status 3",
+    ),
 )
 
 
@@ -86,9 +89,11 @@ def test_what_may_be_called_after_a_failure(tmp_path, calls, answer, letters):
     result = fly(odd_system(tmp_path, ANSWERS=answer, AT=0.5))
     assert (result.status, result.time.tolist()) == ("failed", [0.0, 0.25, 0.5])
     known = answer in (2, 3, 4)
-    token = {2: "discard, which is no wish to end", 3: "error", 4: "fatal"}.get(answer, f"{answer}, a status that FMI")
+    token = {2: "discard without asking for termination", 3: "error", 4: "fatal"}.get(
+        answer, f"{answer}, which FMI does not define"
+    )
     assert f"odd: fmi2DoStep returned {token}" in result.message
-    assert known or "a status that FMI does not have" in result.message
+    assert known or "which FMI does not define" in result.message
     assert calls() == letters
 
 
@@ -109,7 +114,7 @@ def test_an_fmu_that_does_not_reset(tmp_path, calls, quirks, reason):
     )
     assert calls() == ""  # tried once
     notes = perilune.validate(path)[0].notes
-    assert f"odd: instantiated anew for every simulation, as its reset fails: {reason}" in notes
+    assert f"odd: instantiated again for every simulation, since its reset fails: {reason}" in notes
     assert any(note.endswith(reason) for note in perilune.validate(tmp_path / "odd.fmu")[0].notes)
 
 
@@ -145,7 +150,7 @@ def test_a_second_component_of_an_fmu_that_allows_one_instance_is_refused(tmp_pa
     root = system(component("one", "odd"), component("two", "odd"))
     path = pack(tmp_path / "s.ssp", tmp_path, document(root))
     with pytest.raises(
-        InputError, match=r"one, two: .*odd\.fmu can be instantiated only once in a process .*; take one"
+        InputError, match=r"one, two: .*odd\.fmu can be instantiated only once in a process .*; remove one"
     ):
         fly(path)
     odd_fmu(tmp_path)

@@ -114,13 +114,15 @@ def test_exported_with_fmus_of_fmi_3_every_array_has_a_connector(name, tmp_path)
 
 
 def test_fmus_of_fmi_3_need_version_2(tmp_path):
-    with pytest.raises(InputError, match=r"FMUs of FMI 3\.0 have arrays, which SSP 1\.0 has not"):
+    with pytest.raises(InputError, match=r"FMUs of FMI 3\.0 have arrays, which SSP 1\.0 does not support"):
         export("lunar_terminal_guidance", fmi=3, ssp="1", output=tmp_path / "s.ssp")
 
 
 @pytest.mark.parametrize("ssp", ["1", "2"])
 def test_a_version_of_ssp_is_for_systems(tmp_path, monkeypatch, ssp):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(InputError, match="forming_filter is no system, which it is for; leave it out"):
+    with pytest.raises(
+        InputError, match="forming_filter is not a system, and the option applies only to systems; leave it out"
+    ):
         export("forming_filter", ssp=ssp)
     assert not list(tmp_path.iterdir())

@@ -110,11 +110,11 @@ REFUSED = {
     ),
     "nothing of the FMU": (
         {"elements": [component("three", "three", "output z(3) Float64")]},
-        r"three\.z \(line \d+\): is no array of ",
+        r"three\.z \(line \d+\): is not an array of ",
     ),
     "a size of nobody": (
         {"elements": [THREE], "declared": "input in(?) Float64 m"},
-        r"in \(line \d+\): dimension 1 has no size, nor has what it is connected to",
+        r"in \(line \d+\): dimension 1 has no size, neither here nor at the other ends",
     ),
     "a vector to a matrix": (
         {"elements": [THREE, GRID_GAIN], "connections": connection("three.y", "other.u")},
@@ -151,7 +151,7 @@ REFUSED = {
             "elements": [THREE, GAIN],
             "connections": connection("three.y", "gain.u", attributes='startIndices="0" endIndices="1"'),
         },
-        r"Connection, startIndices \(line \d+\): 0 is no index; count from 1",
+        r"Connection, startIndices \(line \d+\): 0 is not an index; count from 1",
     ),
     "an element driven twice": (
         {

@@ -76,16 +76,19 @@ def test_of_a_component_it_is_what_the_fmu_declares_unless_it_is_given(tmp_path)
 @pytest.mark.parametrize(
     ("root", "words"),
     [
-        (nested(), r"inner\.in, Dimension \(line \d+\): inner\.n has no value; give it one in a parameter set"),
+        (nested(), r"inner\.in, Dimension \(line \d+\): inner\.n has no value; give it a value in a parameter set"),
         (nested(inline("n=UInt64:2")), r"connection in -> gain\.u \(line \d+\): connects 2 elements with 3 elements"),
-        (nested(inline("n=Float64:2.5")), r"inner\.in, Dimension \(line \d+\): inner\.n is 2\.5, which is no size"),
+        (
+            nested(inline("n=Float64:2.5")),
+            r"inner\.in, Dimension \(line \d+\): inner\.n is 2\.5, which is not a valid size",
+        ),
         (
             system(GAIN, declared="parameter n UInt64; input in(n) Float64 m"),
-            r"in, Dimension \(line \d+\): sizeConnector n is no structural parameter and no constant of root",
+            r"in, Dimension \(line \d+\): sizeConnector n is neither a structural parameter nor a constant of root",
         ),
         (
             system(GAIN, declared="input in(k) Float64 m"),
-            r"in, Dimension \(line \d+\): sizeConnector k is no structural parameter and no constant of root",
+            r"in, Dimension \(line \d+\): sizeConnector k is neither a structural parameter nor a constant of root",
         ),
     ],
 )

@@ -76,7 +76,7 @@ TABLE = {
         system(RAMP, GAIN, connections=connection("ramp.yy", "gain.u")),
         ["ramp declares no connector yy", "use one of"],
     ),
-    "two elements of one name": (system(RAMP, RAMP), ["ramp", "two elements of this name"]),
+    "two elements of one name": (system(RAMP, RAMP), ["ramp", "two elements with this name"]),
     "two flat names": (
         system(
             component("a.ramp", "ramp"),
@@ -113,7 +113,7 @@ TABLE = {
             system(declared="parameter p Real m", name="other"),
             connections=connection("inner.c", "other.p"),
         ),
-        ["inner.c -> other.p", "calculated parameters are not passed", "parameter set"],
+        ["inner.c -> other.p", "calculated parameters cannot be connected", "parameter set"],
     ),
     "calculated parameter into an input": (
         system(

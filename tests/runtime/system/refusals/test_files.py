@@ -98,11 +98,11 @@ BROKEN_FMUS = {
     "truncated": (truncated, ["not a readable zip"]),
     "scrambled": (scrambled, ["zip"]),
     "no description": (lambda tiny: zipped({"a": b""}), ["modelDescription.xml", "not found"]),
-    "slip": (lambda tiny: zipped(fmu_files(tiny) | {"../evil": b"x"}), ["../evil", "leaves the archive's folder"]),
-    "deep slip": (lambda tiny: zipped(fmu_files(tiny) | {"a/../../evil": b"x"}), ["leaves the archive's folder"]),
-    "absolute": (lambda tiny: zipped(fmu_files(tiny) | {"/tmp/evil": b"x"}), ["leaves the archive's folder"]),
-    "backslash": (lambda tiny: zipped(fmu_files(tiny) | {"..\\evil": b"x"}), ["a backslash in a file name"]),
-    "drive": (lambda tiny: zipped(fmu_files(tiny) | {"C:evil": b"x"}), ["leaves the archive's folder"]),
+    "slip": (lambda tiny: zipped(fmu_files(tiny) | {"../evil": b"x"}), ["../evil", "leads out of the archive"]),
+    "deep slip": (lambda tiny: zipped(fmu_files(tiny) | {"a/../../evil": b"x"}), ["leads out of the archive"]),
+    "absolute": (lambda tiny: zipped(fmu_files(tiny) | {"/tmp/evil": b"x"}), ["leads out of the archive"]),
+    "backslash": (lambda tiny: zipped(fmu_files(tiny) | {"..\\evil": b"x"}), ["a backslash in the file name"]),
+    "drive": (lambda tiny: zipped(fmu_files(tiny) | {"C:evil": b"x"}), ["leads out of the archive"]),
     "doctype": (
         lambda tiny: described(tiny, lambda text: text.replace("<fmiModel", f"{DOCTYPE}<fmiModel")),
         ["modelDescription.xml: DOCTYPE"],
@@ -124,7 +124,7 @@ BROKEN_FMUS = {
     "model exchange": (lambda tiny: described(tiny, model_exchange), ["CoSimulation", "not a co-simulation FMU"]),
     "other platform": (
         lambda tiny: zipped({key: value for key, value in fmu_files(tiny).items() if "linux" not in key}),
-        ["binaries/", "no binary for this platform; take its native flavour"],
+        ["binaries/", "no binary for this platform; use its native flavour"],
     ),
     "other platform, with sources": (
         lambda tiny: of_another_platform(tiny, "compile.c"),
@@ -178,7 +178,7 @@ def test_archives(tmp_path, refused):
     write_zip(path, {"readme.txt": "x", "other.ssd": document(PLAIN)})
     refused(path, "SystemStructure.ssd", "not found", "SSDs here: other")
     write_zip(path, {"SystemStructure.ssd": document(PLAIN), "../evil": "x"})
-    refused(path, "../evil", "leaves the archive's folder")
+    refused(path, "../evil", "leads out of the archive")
     assert not (tmp_path.parent / "evil").exists()
     (tmp_path / "folder").mkdir()
     refused(tmp_path / "folder", "SystemStructure.ssd", "not found")
