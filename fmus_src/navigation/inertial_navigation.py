@@ -30,23 +30,26 @@ class InertialNavigation(Navigation, interface=True):
 
     seed, stream = sampling.random_stream()
     force = State(
-        [0.0] * 3, unit="m/s2", description="mean specific force assumed over the last step (landing site frame)"
+        [0.0] * 3, unit="m/s2", frame="landing site", description="mean specific force assumed over the last step"
     )
     force_before = State(
         [0.0] * 3,
         unit="m/s2",
-        description="mean specific force assumed over the step before the last one (landing site frame)",
+        frame="landing site",
+        description="mean specific force assumed over the step before the last one",
     )
     under_way = State(False, description="true: estimate propagated at least once")
     last_force = State(
         [0.0] * 3,
         unit="m/s2",
-        description="last measured specific force, assumed until the next sample (landing site frame)",
+        frame="landing site",
+        description="last measured specific force, assumed until the next sample",
     )
     assumed_increment = State(
         [0.0] * 3,
         unit="m/s",
-        description="velocity increment assumed since the last inertial sample (landing site frame)",
+        frame="landing site",
+        description="velocity increment assumed since the last inertial sample",
     )
     since_sample = State(0.0, unit="s", description="time since the last inertial sample")
     inertial_taken = State(0, description="inertial_count of the last inertial sample used")

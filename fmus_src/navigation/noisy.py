@@ -57,7 +57,7 @@ class NoisyNavigation(Navigation):
     )
     generator = sampling.GENERATOR.state()
     estimate = State(
-        zeros(6, 1), description="estimated position (m) and velocity (m/s) of the lander (landing site frame)"
+        zeros(6, 1), description="estimated position (m) and velocity (m/s) of the lander, landing-site axes"
     )
     covariance = State(
         zeros(6, 6), frozen=True, description="covariance matrix of estimated position and velocity, SI units"

@@ -24,8 +24,8 @@ class Atmosphere(Enumeration):
     """Model of the Earth's air density."""
 
     VACUUM = member("no air")
-    EXPONENTIAL = member("exponential by height")
-    HARRIS_PRIESTER = member("Harris-Priester with the bulge behind the Sun")
+    EXPONENTIAL = member("exponential in height")
+    HARRIS_PRIESTER = member("Harris-Priester with diurnal bulge")
 
 
 class Orbit(Bundle):

@@ -30,10 +30,10 @@ class SteeringState(Record):
     time = Field(unit="s", description="time to go of the linear-tangent steering")
     thrust = Field(unit="N", description="constant thrust of the linear-tangent steering")
     direction = Field(
-        Vector3, unit="1", description="thrust direction vector lambda at the time K (landing site frame)"
+        Vector3, unit="1", frame="landing site", description="thrust direction vector lambda at the time K"
     )
     turning = Field(
-        Vector3, unit="1/s", description="time derivative of the thrust direction vector lambda (landing site frame)"
+        Vector3, unit="1/s", frame="landing site", description="time derivative of the thrust direction vector lambda"
     )
     centre = Field(unit="s", description="time K from now at which lambda is the thrust direction")
     change = Field(
