@@ -23,7 +23,7 @@ FOLDER = "trials"
 TRACES = "traces"
 DRAWS = "draws.parquet"
 SUMMARY = "summary.json"
-NEW_FOLDER = "fly the batch again into an empty folder"
+NEW_FOLDER = "run the batch again with an empty folder"
 
 
 def check_folders(folder: Path, remedy: str = NEW_FOLDER) -> None:
