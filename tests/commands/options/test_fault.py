@@ -90,7 +90,7 @@ def test_provenance_can_be_flown_again(folder, capsys):
     [
         (
             "gain.u",
-            "--fault: gain.u: not of the form COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]; write it",
+            "--fault: gain.u: not of the form COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]; use this",
         ),
         ("gain.u=melt:1@0", "--fault: gain.u=melt:1@0: unknown kind melt; use one of override, bias, freeze"),
         ("gain.u=bias@0", "--fault: gain.u=bias@0: bias lacks its value; write bias:VALUE"),
