@@ -25,6 +25,7 @@ from tests.support.built import native_are_current, systems_are_current
 from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
+from tests.support.memory_disk import use_memory_disk
 from tests.support.pages.browser import NO_BROWSER, find_browser
 from tests.support.pages.scripts import NO_SCRIPTS
 from tests.support.refused import ONE_LINE
@@ -55,7 +56,9 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     _status.append(int(exitstatus))
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
+    use_memory_disk()
     progress.PERIOD = math.inf  # s; else what a busy machine takes long for had lines that a test does not expect
     config.addinivalue_line("markers", "slow: takes minutes; `make long` runs it")
     config.addinivalue_line("markers", "flies: takes the built FMUs; `make quick` leaves it out")
