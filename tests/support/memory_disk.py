@@ -1,4 +1,4 @@
-"""A folder in memory for temporary files of tests: half of the system time of the suite is for files that live for a second."""
+"""A folder in memory for temporary files of tests: files that live for a second take half of the system time."""
 
 from __future__ import annotations
 
