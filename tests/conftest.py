@@ -25,10 +25,10 @@ from tests.support.built import native_are_current, systems_are_current
 from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
-from tests.support.memory_disk import use_memory_disk
 from tests.support.pages.browser import NO_BROWSER, find_browser
 from tests.support.pages.scripts import NO_SCRIPTS
 from tests.support.refused import ONE_LINE
+from tests.times.memory_disk import use_memory_disk
 from tests.times.recording import pytest_runtest_logreport, pytest_runtest_logstart, write_times  # noqa: F401 -- hooks
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
