@@ -106,9 +106,9 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     try:
         outcome = called(*several, **arguments, **options)
     except UnwrittenError as error:
-        result.present(verb, error.result, files)
+        result.output_result(verb, error.result, files)
         raise
-    return result.present(verb, outcome, files)
+    return result.output_result(verb, outcome, files)
 
 
 def parser_of(given: Sequence[str]) -> Parser:

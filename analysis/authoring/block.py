@@ -46,14 +46,14 @@ def new_block(name: str, slot: str | None) -> CreatedFiles:
     check_free(path)
     template = "block.py" if slot is None else f"{SLOTS}/{slot}.py"
     text = render(template, name=name, class_name=class_name(name))
-    system, component = ("SYSTEM", "control") if slot is None else where_it_flies(slot)
+    system, component = ("SYSTEM", "control") if slot is None else find_smallest_system(slot)
     first = ["perilune new system SYSTEM", "perilune export SYSTEM/blocks.py"] if slot is None else []
     write_atomically(path, text.encode())
     run = write_command(RUN, {"system": system}, {"use": {component: name}})
     return CreatedFiles([path], [f"perilune export {path}", *first, run])
 
 
-def where_it_flies(slot: str) -> tuple[str, str]:
+def find_smallest_system(slot: str) -> tuple[str, str]:
     """Return the smallest system with a component of this slot, or of this block, and the name of the component."""
     blocks = catalogue()
     interface = slots().get(slot) or blocks[slot]

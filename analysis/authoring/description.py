@@ -10,7 +10,7 @@ from typing import Any
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.prepared import PreparedSystem
 from ..stability.request.reading import read_declaration
-from .fits import fitting
+from .fits import find_fitting_fmus
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 LINE = re.compile(r"(.+) lines? (\d+)(?: to (\d+))?")
@@ -133,7 +133,7 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
         "description": fmu.description.description or "",
         "feedthrough": any(feedthrough.stepping[name].values()),
         "feedthrough_origin": feedthrough.origins[name],
-        "fits": [other for other in fitting(demanded) if other != fmu.name],
+        "fits": [other for other in find_fitting_fmus(demanded) if other != fmu.name],
         "variables": variables_of(
             fmu,
             {variable: value for (component, variable), value in settings.variables.items() if component == name},

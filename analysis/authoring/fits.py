@@ -35,7 +35,7 @@ def _all_connectors() -> Mapping[str, set[Demand]]:
     return demands
 
 
-def fitting(demanded: Iterable[Demand]) -> list[str]:
+def find_fitting_fmus(demanded: Iterable[Demand]) -> list[str]:
     """Return the FMUs of this repository and of the working folder that have all required connectors, by name."""
     wanted = set(demanded)
     return [name for name, has in _all_connectors().items() if wanted <= has]

@@ -134,8 +134,8 @@ def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmu
     return {
         "connections": tuple(_connections(pairs, shapes)),
         "connectors": {_base(name, shapes): kind for name, kind in kinds.items()},
-        "declare": tuple(ListEntry(name, "declare") for name in _whole(idle, shapes)),
-        "unconnected": tuple(ListEntry(name, "unconnected") for name in _whole(inputs, shapes)),
+        "declare": tuple(ListEntry(name, "declare") for name in _combine_arrays(idle, shapes)),
+        "unconnected": tuple(ListEntry(name, "unconnected") for name in _combine_arrays(inputs, shapes)),
     }
 
 
@@ -144,7 +144,7 @@ def _base(name: str, shapes: Mapping[Point, Shape]) -> str:
     return base if ("", base) in shapes else name
 
 
-def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
+def _combine_arrays(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
     """Return the names of points, with complete arrays replaced by the name of the array."""
     present, names = set(points), []
     for component, name in points:

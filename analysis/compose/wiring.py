@@ -70,7 +70,7 @@ def wire(source: SystemSource, fmus: Mapping[str, Fmu]) -> Wiring:
     for entry in source.declare:
         wirer.declare(entry)
     for entry in source.unconnected:
-        wirer.leave(entry)
+        wirer.keep_starts(entry)
     wirer.check_inputs()
     wirer.check_connectors()
     if wirer.problems:
@@ -134,9 +134,9 @@ class _Wirer:
             self.refuse(entry, "both ends are connectors of the system", "connect a connector of a component")
             return False
         if not source.component:
-            source = self.like(source, target)
+            source = self.make_connector(source, target)
         if not target.component:
-            target = self.like(target, source)
+            target = self.make_connector(target, source)
         if source.indices != target.indices and (len(source.names) > 1 or len(target.names) > 1):
             sizes = [f"{end.name} is {text_of(_shape(end))}" for end in (source, target)]
             self.refuse(entry, f"sizes differ: {', '.join(sizes)}", "connect elements, NAME[1] -> NAME[1]")
@@ -144,7 +144,7 @@ class _Wirer:
         pairs = zip(source.names, target.names, strict=True)
         return all(self.join_one((source.component, a), (target.component, b), entry) for a, b in pairs)
 
-    def like(self, end: End, other: End) -> End:
+    def make_connector(self, end: End, other: End) -> End:
         """Return a connector of the system with the elements of the variable that it is connected to."""
         if end.variable not in self.source.connectors or other.indices == ("",):
             return end
@@ -215,7 +215,7 @@ class _Wirer:
             variable = self.fmus[component].variables[name]
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
-    def leave(self, entry: ListEntry) -> None:
+    def keep_starts(self, entry: ListEntry) -> None:
         """Record inputs that keep their start values: a named one, or for ``component.*`` all unconnected ones."""
         if entry.text.endswith(ALL):
             self.leave_all(entry.text.removesuffix(ALL), entry)

@@ -24,7 +24,7 @@ class Quantity(NamedTuple):
     decimals: int | None = None
 
 
-class Displayed(NamedTuple):
+class DisplayedNumber(NamedTuple):
     """A number with its own text, for one that is not a multiple of the SI value: a factor in dB, a complex number."""
 
     text: str
@@ -50,8 +50,8 @@ class Percentage(NamedTuple):
 class Interval(NamedTuple):
     """The two ends of an interval in one cell; at most one of them is None."""
 
-    low: Quantity | Percentage | Displayed | None
-    high: Quantity | Percentage | Displayed | None
+    low: Quantity | Percentage | DisplayedNumber | None
+    high: Quantity | Percentage | DisplayedNumber | None
 
 
 class Track(NamedTuple):
@@ -99,7 +99,7 @@ class Link(NamedTuple):
 Grade = Literal["pass", "fail", "withheld", "not-applicable"]
 
 
-class Judged(NamedTuple):
+class VerdictCell(NamedTuple):
     """A verdict as a word, coloured by its grade."""
 
     verdict: str
@@ -135,13 +135,13 @@ class LegendEntry(NamedTuple):
 Inline = (
     str
     | Quantity
-    | Displayed
+    | DisplayedNumber
     | Percentage
     | Interval
     | Code
     | CommandLine
     | Link
-    | Judged
+    | VerdictCell
     | Strong
     | Faint
     | LegendEntry

@@ -55,10 +55,10 @@ def compare_report(
 ) -> list[str]:
     """Return the differences between a repeated study and its stored report, a line each. Raises InputError."""
     try:
-        numbers = dict(_leaves(json.loads(stored), ""))
+        numbers = dict(_iterate_scalars(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", f"not JSON: {error}", "export the system again") from error
-    now = dict(_leaves(json.loads(make_report(system, name, options, timeout)), ""))
+    now = dict(_iterate_scalars(json.loads(make_report(system, name, options, timeout)), ""))
     relative = LAPACK if name == STABILITY else 0.0
     differences = [
         f"{key}: {numbers.get(key, 'absent')} in the report, {now.get(key, 'absent')} now"
@@ -82,14 +82,14 @@ def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
     return {"verdict": made["verdict"], "limits": made["limits"], "loops": loops}
 
 
-def _leaves(entry: object, path: str) -> Iterator[tuple[str, object]]:
+def _iterate_scalars(entry: object, path: str) -> Iterator[tuple[str, object]]:
     """Yield every scalar of a JSON document with its path."""
     if isinstance(entry, Mapping):
         for key, inner in entry.items():
-            yield from _leaves(inner, f"{path}.{key}")
+            yield from _iterate_scalars(inner, f"{path}.{key}")
     elif isinstance(entry, list):
         for index, inner in enumerate(entry):
-            yield from _leaves(inner, f"{path}[{index + 1}]")
+            yield from _iterate_scalars(inner, f"{path}[{index + 1}]")
     else:
         yield path, entry
 

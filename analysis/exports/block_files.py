@@ -13,11 +13,11 @@ from ...fmus_src.catalogue import blocks_in_file, catalogue
 from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, folder_of
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ..runtime.ssp.archive import system_names
-from .fmus import needs_python, no_compiler, zig_is_here
+from .fmus import has_zig, needs_python, no_compiler
 from .request import ExportedFiles, ExportRequest
 
 
-def check_there(file: Path) -> None:
+def check_file_exists(file: Path) -> None:
     """Reject a missing Python file; the error suggests the files that exist. Raises InputError."""
     if file.is_file():
         return
@@ -65,7 +65,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         for each in flavours:
             check_file("export", own_fmu(file.stem, folder_of(each, fmi)), new_folders=3)  # build/fmus/FLAVOUR
         folder = own_fmu("x", "x").parents[1]
-        written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=zig_is_here(), fmi=fmi)
+        written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=has_zig(), fmi=fmi)
         if not written:
             raise needs_python(file, only or file.stem, fmi)
         record_source(folder, file, written, files_with(file))
@@ -84,9 +84,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
     if flavour is None and blocks[0].python_only and fmi == 2:
         flavours = ["python"]
     with tempfile.TemporaryDirectory() as name:
-        written = build_own_blocks(
-            file, Path(name), flavours[:1], platforms, only=only, portable=zig_is_here(), fmi=fmi
-        )
+        written = build_own_blocks(file, Path(name), flavours[:1], platforms, only=only, portable=has_zig(), fmi=fmi)
         if not written:
             raise needs_python(file, blocks[0].__name__, fmi)
         write_atomically(output, written[0].read_bytes())

@@ -35,7 +35,7 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
     elif not platforms:
         raise no_compiler(block.fmu_name, fmi)
     else:
-        build_native_fmu(block, path, platforms=platforms, portable=zig_is_here(), fmi=fmi)
+        build_native_fmu(block, path, platforms=platforms, portable=has_zig(), fmi=fmi)
 
 
 def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
@@ -51,6 +51,6 @@ def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputE
     return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 
-def zig_is_here() -> bool:
+def has_zig() -> bool:
     """Return True if zig is available: it alone compiles for Windows on any machine, and against an old C library."""
     return "win64" in available_platforms()

@@ -59,7 +59,7 @@ class Service:
         columns, names, query = self._read(request)
 
         def work() -> Any:
-            rows = np.flatnonzero(Counter(columns, names, query).selected())[:TABLE_LIMIT]
+            rows = np.flatnonzero(Counter(columns, names, query).select_rows())[:TABLE_LIMIT]
             return trials_document(columns.campaign, rows.tolist(), [names[index] for index in query.histograms])
 
         return await self._answer(request, work)
@@ -68,7 +68,7 @@ class Service:
         """Answer with a file of all selected trials and all columns."""
         columns, names, query = self._read(request)
         mask = await asyncio.get_running_loop().run_in_executor(
-            self._executor, lambda: Counter(columns, names, query).selected()
+            self._executor, lambda: Counter(columns, names, query).select_rows()
         )
         name = f"{columns.campaign.source.folder.name}-selected.csv"
         headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name, safe='')}"}

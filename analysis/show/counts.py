@@ -30,7 +30,7 @@ class Counter:
         self._common = self._of_outcome_and_variants()
         self._within = {(each.column, each.first, each.last): self._in_range(each) for each in query.ranges}
 
-    def selected(self, *without: int) -> np.ndarray:
+    def select_rows(self, *without: int) -> np.ndarray:
         """Return a mask (rows,) of the rows that the filter selects, ignoring the ranges of the columns ``without``."""
         mask = self._common
         for (column, _, _), rows in self._within.items():
@@ -40,10 +40,10 @@ class Counter:
 
     def document(self) -> Counts:
         """Return all counts for the page; each figure ignores the ranges of its own columns."""
-        mask = self.selected()
+        mask = self.select_rows()
         return {
             "outcomes": self._outcomes(mask),
-            "ranges": [self._ends(each) for each in self.query.ranges],
+            "ranges": [self._find_ends(each) for each in self.query.ranges],
             "histograms": self._histograms(),
             "grids": [self._grid(x, y) for x, y in self.query.grids],
         }
@@ -60,7 +60,7 @@ class Counter:
             group = self.query.histograms[first : first + size]
             columns = self._get(group)
             for index in group:
-                counts = self._by_variant(self.selected(index), columns[index].codes, CODES, SHIFT)
+                counts = self._by_variant(self.select_rows(index), columns[index].codes, CODES, SHIFT)
                 histograms.append({"counts": counts, "scale": scale_document(columns[index])})
         return histograms
 
@@ -81,7 +81,7 @@ class Counter:
 
     def _grid(self, x: int, y: int) -> GridCounts:
         """Count trials and failures over two columns, (BARS, BARS) from the bottom; or return few trials as dots."""
-        mask = self.selected(x, y)
+        mask = self.select_rows(x, y)
         mask = mask & (self._codes(x) < BINS) & (self._codes(y) < BINS)
         scales: GridCounts = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}
         rows = np.flatnonzero(mask)
@@ -104,7 +104,7 @@ class Counter:
         codes = self._codes(each.column)
         return (codes >= each.first) & (codes <= each.last)
 
-    def _ends(self, each: Range) -> RangeEnds | None:
+    def _find_ends(self, each: Range) -> RangeEnds | None:
         """Return the ends of a range; None for a column without a finite number.
 
         The step is the smaller width of the bins at the two ends.

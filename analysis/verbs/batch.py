@@ -25,7 +25,7 @@ from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
-from .common.campaigns import campaign_requirements, name_foreign, read_campaign, resume_hint
+from .common.campaigns import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
 from .common.documented import Documented
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
@@ -135,7 +135,7 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         by = None if options["scheduler"] is None else "the scheduler's workers"
         opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers, elsewhere=by)
         if options["resume"]:
-            name_foreign(opened)
+            warn_of_foreign_fmus(opened)
         if options["retry_crashed"]:
             opened.discard_lost(range(opened.numbering.count))
         rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)

@@ -18,8 +18,8 @@ from ...fmus_src.export.own_blocks import defines
 from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..documents.model import Document
 from ..documents.of.files import exported_document
-from ..exports.block_files import check_there, export_file, find_block_file
-from ..exports.fmus import build_fmu, zig_is_here
+from ..exports.block_files import check_file_exists, export_file, find_block_file
+from ..exports.fmus import build_fmu, has_zig
 from ..exports.request import ExportedFiles, ExportRequest
 from ..exports.system_fmu.build import build_system_fmu
 from ..exports.system_fmu.request import OneFmu
@@ -118,12 +118,12 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> ExportedFiles:
     archive = open_system(name)
     path = request.output or Path(f"{_archive_name(name).removesuffix('.ssp')}.fmu")
     check_file("`output`", path, (".fmu",))
-    platforms = request.platforms or (platforms_of(2) if zig_is_here() else available_platforms())
+    platforms = request.platforms or (platforms_of(2) if has_zig() else available_platforms())
     if not platforms:
         raise InputError(
             "export", name, "needs a C compiler, and none is installed", "install cc, or pip install ziglang"
         )
-    build_system_fmu(archive, path, one_fmu, platforms, portable=zig_is_here())
+    build_system_fmu(archive, path, one_fmu, platforms, portable=has_zig())
     return ExportedFiles((path,), ("native",), tuple(platforms))
 
 
@@ -149,7 +149,7 @@ def _export(request: ExportRequest) -> ExportedFiles:
                 f"`{option}`", value, f"{text} is not a system, and the option applies only to systems", "leave it out"
             )
     if text.endswith(".py"):
-        check_there(Path(text))
+        check_file_exists(Path(text))
         return export_file(Path(text), request)
     file = find_block_file(text)
     if file is not None:

@@ -16,13 +16,13 @@ from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Required, conditions, results_folder, store_result
+from .common.studies import RequirementResult, conditions, results_folder, store_result
 
 NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which requirements are
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class RareResult(Required, outcome.RareOutcome):
+class RareResult(RequirementResult, outcome.RareOutcome):
     """Result of a rare-failure study: ``probability``, ``interval``, ``failures`` among ``flights`` simulations.
 
     ``simulation`` contains the levels, ``flown`` every simulation; ``folder`` is where the result is stored, if it is.

@@ -59,7 +59,7 @@ def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapp
         print(f"perilune: {line}", file=sys.stderr)
 
 
-def present(verb: Verb, result: Documented, files: Mapping[str, Any]) -> ExitStatus:
+def output_result(verb: Verb, result: Documented, files: Mapping[str, Any]) -> ExitStatus:
     """Print a result or its JSON document, write its files, report its problems; return the exit status."""
     written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
     written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []

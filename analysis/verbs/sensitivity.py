@@ -17,14 +17,14 @@ from ..options.option import FilePath
 from ..options.verb import verb
 from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Stored, conditions, results_folder, store_result
+from .common.studies import StoredResult, conditions, results_folder, store_result
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SensitivityResult(Stored, study.SensitivityOutcome):
+class SensitivityResult(StoredResult, study.SensitivityOutcome):
     """Sobol' indices of metrics and success: `of` returns those of one, ``ranks`` are the rank correlations."""
 
     def document(self) -> Document:

@@ -23,7 +23,7 @@ from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
-from .common.campaigns import campaign_requirements, name_foreign, read_campaign, resume_hint
+from .common.campaigns import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
 from .common.documented import Documented
 
 
@@ -90,7 +90,7 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
         raise InputError("shard", numbers, "a text, not a list of shards", f"give [{numbers!r}]")
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
     campaign = open_folder(Path(folder), trust_of(options))
-    name_foreign(campaign)
+    warn_of_foreign_fmus(campaign)
     if options["retry_crashed"]:
         campaign.discard_lost(shards)
     incomplete = campaign.check_campaign(shards)

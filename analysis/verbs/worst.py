@@ -23,13 +23,13 @@ from ..studies.worst.request import MarginAsked, check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Conditions, Required, conditions, results_folder, store_result
+from .common.studies import Conditions, RequirementResult, conditions, results_folder, store_result
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class WorstResult(Required, outcome.WorstOutcome):
+class WorstResult(RequirementResult, outcome.WorstOutcome):
     """Result of a worst-case search: ``worst`` and ``worst_random`` trial, and every simulation in ``flown``.
 
     ``plan`` is the simulated plan, None for a stability margin. ``folder`` is where the result is stored, if it is.

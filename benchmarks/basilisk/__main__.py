@@ -37,7 +37,7 @@ VECTORS = {"hub.r_CN_NInit": "plant.initial_position", "hub.v_CN_NInit": "plant.
 MOON_RADIUS = 1.7374e6  # m
 
 
-def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
+def run_perilune(folder: Path, plant: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
     """Simulate a batch with Perilune.
 
     Returns its time (s), and the final position and velocity of each trial in the landing-site frame.
@@ -61,8 +61,10 @@ def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float
     return elapsed, np.stack([rows[name].to_numpy() for name in names], axis=1).tolist()
 
 
-def fly_there(folder: Path, python: str, trials: int, workers: int, *options: str) -> tuple[float, list[list[float]]]:
-    """Simulate the same batch with Basilisk; return the same as `fly_here`."""
+def run_basilisk(
+    folder: Path, python: str, trials: int, workers: int, *options: str
+) -> tuple[float, list[list[float]]]:
+    """Simulate the same batch with Basilisk; return the same as `run_perilune`."""
     command = [python, "-W", "ignore", "-m", "benchmarks.basilisk.monte_carlo", str(folder), str(trials), str(workers)]
     done = subprocess.run([*command, *options], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     document = json.loads(done.stdout.splitlines()[-1])
@@ -81,8 +83,8 @@ class Contestant:
 
     def fly(self, folder: Path, python: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
         if self.plant is not None:
-            return fly_here(folder, self.plant, trials, workers)
-        return fly_there(folder, python, trials, workers, *self.options)
+            return run_perilune(folder, self.plant, trials, workers)
+        return run_basilisk(folder, python, trials, workers, *self.options)
 
 
 CONTESTANTS = (
@@ -112,7 +114,7 @@ def main(python: str) -> None:
         folder = Path(temporary)
         stack.enter_context(chdir(folder))
         perilune.export(ROOT / "examples" / "basilisk_moon_lander.py")
-        _, reference = fly_here(folder, "here", SLOW[1], 1)
+        _, reference = run_perilune(folder, "here", SLOW[1], 1)
         write_draws(folder)
         for contestant in CONTESTANTS:
             for workers in (1, 2):

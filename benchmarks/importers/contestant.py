@@ -15,7 +15,7 @@ from perilune.common.errors import InputError
 
 
 @dataclass(frozen=True)
-class Course:
+class ExchangeSystem:
     """A system whose FMUs exchange Reals without conversion, directly between components."""
 
     ssp: Path
@@ -87,7 +87,7 @@ class Contestant:
     flavour: str
     what: str
     algorithm: str | None
-    prepare: Callable[[Course], Fly]
+    prepare: Callable[[ExchangeSystem], Fly]
     exact: bool = False
 
     @property

@@ -18,9 +18,9 @@ from perilune.common.progress import progress_bar
 from perilune.fmus_src.export.available import fmu_file
 from perilune.fmus_src.export.ssp_package import list_fmus, pack_system
 
-from .contestant import OURS, Contestant, Course, Unavailable, Values
+from .contestant import OURS, Contestant, ExchangeSystem, Unavailable, Values
 from .contestants import CONTESTANTS
-from .times import Times, compute_promised_ratios, disagreements
+from .times import Times, compute_guaranteed_ratios, disagreements
 from .worker import ROUNDS, Worker, WorkerError, trials_per_second
 
 SYSTEM = "lunar_terminal_guidance"
@@ -41,7 +41,7 @@ def run_benchmark(
     trials: dict[str, dict[str, float]] = {}
     with tempfile.TemporaryDirectory(prefix="perilune_benchmark_") as folder:
         archives = _pack(Path(folder), contestants, unavailable)
-        prepared = Course(next(iter(archives.values()))).prepared
+        prepared = ExchangeSystem(next(iter(archives.values()))).prepared
         with _workers(archives, contestants, unavailable) as workers:
             times = _fly_in_turn(workers, contestants, steps, repeats, unavailable)
         for flavour, archive in archives.items():
@@ -59,14 +59,14 @@ def run_benchmark(
         "steps": steps,
         "repeats": repeats,
         "microseconds_per_step": {name: 1e6 * each.step() for name, each in times.items()},
-        "median_microseconds_per_step": {name: 1e6 * each.middle() for name, each in times.items()},
+        "median_microseconds_per_step": {name: 1e6 * each.median_step() for name, each in times.items()},
         "milliseconds_to_start": {name: 1e3 * each.start() for name, each in times.items()},
         "ratios": {
             name: each.ratio(times[OURS[flavours[name]]])
             for name, each in times.items()
             if OURS[flavours[name]] in times
         },
-        "promised_ratios": compute_promised_ratios(times, trials),
+        "promised_ratios": compute_guaranteed_ratios(times, trials),
         "trials_per_second": trials,
         "unavailable": unavailable,
         "what": {each.name: each.what for each in contestants},

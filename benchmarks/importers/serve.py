@@ -14,7 +14,7 @@ from typing import Any
 from perilune.common.errors import InputError
 from perilune.common.process import leave
 
-from .contestant import Course, Fly, Unavailable
+from .contestant import ExchangeSystem, Fly, Unavailable
 from .contestants import CONTESTANTS
 from .worker import fly_batch
 
@@ -44,7 +44,7 @@ def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path) -> No
             answer({"seconds": fly_batch(ssp, **json.loads(line))})
         return
     contestant = next(each for each in CONTESTANTS if each.name == name)
-    fly = contestant.prepare(Course(ssp))
+    fly = contestant.prepare(ExchangeSystem(ssp))
     answer({})
     for line in sys.stdin:
         answer(_turn(fly, json.loads(line)["steps"]))

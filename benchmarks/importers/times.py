@@ -33,7 +33,7 @@ class Times:
         """Return the time per step (s), from the fastest simulation of each length."""
         return (min(self.long) - min(self.short)) / (self.steps - 1)
 
-    def middle(self) -> float:
+    def median_step(self) -> float:
         """Return the time per step (s), median over the repeats."""
         return median(self._each())
 
@@ -49,7 +49,9 @@ class Times:
         return [(long - short) / (self.steps - 1) for short, long in zip(self.short, self.long, strict=True)]
 
 
-def compute_promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+def compute_guaranteed_ratios(
+    times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]
+) -> dict[str, float]:
     """Return the guaranteed ratios ``first/second`` of available contestants.
 
     For workers these are ratios of trials per second, by flavour.
@@ -70,7 +72,7 @@ def difference(values: Values, reference: Values) -> float:
     return max(abs(values[name] - expected) / max(1.0, abs(expected)) for name, expected in reference.items())
 
 
-def differ(values: Values, reference: Values) -> int:
+def count_differences(values: Values, reference: Values) -> int:
     """Return the number of values that are not equal to the last bit."""
     return sum(values[name].hex() != expected.hex() for name, expected in reference.items())
 
@@ -92,8 +94,10 @@ def disagreements(contestants: Iterable[Contestant], final: Mapping[str, Values]
         if reference is None:
             if by_name[name].exact:
                 versions[name] = "ours did not fly, so that its values cannot be compared"
-        elif by_name[name].exact and differ(values, reference):
-            versions[name] = f"{differ(values, reference)} of its values at the end differ from ours in their bits"
+        elif by_name[name].exact and count_differences(values, reference):
+            versions[name] = (
+                f"{count_differences(values, reference)} of its values at the end differ from ours in their bits"
+            )
         elif not difference(values, reference) <= TOLERANCE:
             versions[name] = f"its values at the end differ from ours by {difference(values, reference):.2g}"
     return versions

@@ -57,7 +57,7 @@ def state_feedback(states: int, inputs: int) -> np.ndarray:
     return np.array(numbers)
 
 
-def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def iterate_gain_norms() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return |F| of every real spread of the poles.
 
     Direct (systems, 20), dual (systems, 15), and of the choice "smallest" (systems, 1).
@@ -102,7 +102,7 @@ def draw(folder: Path, figures: dict[str, Figure]) -> list[Path]:
 
 if __name__ == "__main__":
     medians = {size: state_feedback(*size) for size in SIZES}
-    norms = spreads()
+    norms = iterate_gain_norms()
     print(tables(medians, *norms))
     with house_style():
         kappa, norm = (

@@ -35,7 +35,7 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class Course:
+class RuleStatistics:
     """Statistics over all campaigns: shares met and not met, expected trials, trials by which 95 % have ended."""
 
     met: float
@@ -44,7 +44,7 @@ class Course:
     nearly_all: int
 
 
-def course(rule: Rule, rate: float) -> Course:
+def compute_statistics(rule: Rule, rate: float) -> RuleStatistics:
     """Return the statistics of campaigns with a failure rate, which end with their first verdict or the last look."""
     alive, met, refused, expected, last, nearly_all = np.ones(1), 0.0, 0.0, 0.0, 0, rule.looks[-1]
     for flights, low, high in zip(rule.looks, rule.permitted, rule.refused, strict=True):
@@ -55,7 +55,7 @@ def course(rule: Rule, rate: float) -> Course:
         alive[: low + 1], alive[high:] = 0.0, 0.0
         if met + refused >= 0.95:
             nearly_all = min(nearly_all, flights)
-    return Course(met, refused, expected, nearly_all)
+    return RuleStatistics(met, refused, expected, nearly_all)
 
 
 def _by_evidence(name: str, looks: Sequence[int], good: Callable, bad: Callable) -> Rule:
@@ -90,7 +90,7 @@ def _mixture(above: bool) -> Callable:
     return lambda counts, flights: inside(counts + a, flights - counts + b) - inside(a, b)
 
 
-def _spent(name: str, looks: Sequence[int], spend: Callable[[int], float]) -> Rule:
+def _spending_rule(name: str, looks: Sequence[int], spend: Callable[[int], float]) -> Rule:
     """Return a rule that spends the risk exactly, all of it by the last look."""
     met, refused = Boundary(RATE, spend), Boundary(SHARE, spend)
     return Rule(
@@ -113,7 +113,7 @@ def rules() -> list[Rule]:
         _one_size(f"{sizes[0]}, {sizes[1]}, {sizes[2]} in turn, each as if alone", sizes),
         _by_evidence("Wald's ratios, half and twice the rate", analyses, _point(RATE / 2.0), _point(2.0 * RATE)),
         _by_evidence("Robbins' mixture", analyses, _mixture(above=False), _mixture(above=True)),
-        _spent(f"spending planned for {MOST}", analyses, lambda flights: SPENT * RISK * flights / MOST),
+        _spending_rule(f"spending planned for {MOST}", analyses, lambda flights: SPENT * RISK * flights / MOST),
         Rule(
             "spending without an end",
             analyses,
@@ -131,14 +131,14 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 
 def main() -> None:
     outcomes = rules()
-    at_limit = [course(rule, RATE) for rule in outcomes]
+    at_limit = [compute_statistics(rule, RATE) for rule in outcomes]
     risks = [
         [rule.name, f"{100 * c.met:.1f}", f"{100 * c.refused:.1f}"] for rule, c in zip(outcomes, at_limit, strict=True)
     ]
     print(table(["rule", "met, %", "not met, %"], risks))
     rows = []
     for rule in outcomes:
-        courses = [course(rule, 1.0 - fraction) for fraction in SHARES]
+        courses = [compute_statistics(rule, 1.0 - fraction) for fraction in SHARES]
         decided = [100 * (c.met + c.refused) for c in courses]
         rows.append(
             [rule.name, *(f"{c.flights:.0f}, {c.nearly_all}, {d:.1f}" for c, d in zip(courses, decided, strict=True))]

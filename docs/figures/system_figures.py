@@ -62,7 +62,7 @@ def after_first(signal: str) -> Callable[[FlightResult], Curve]:
     return lambda flight: (flight.time[1:], flight[signal][1:])
 
 
-def against(x: str, y: str, factor: float = 1e-3) -> Callable[[FlightResult], Curve]:
+def curve_over_signal(x: str, y: str, factor: float = 1e-3) -> Callable[[FlightResult], Curve]:
     """Return a curve of one signal over another, both multiplied by ``factor``."""
     return lambda flight: (factor * flight[x], factor * flight[y])
 
@@ -72,7 +72,7 @@ def size_over_time(vector: str, factor: float = 1.0) -> Callable[[FlightResult],
     return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
 
 
-def settled(signal: str, factor: float) -> Callable[[FlightResult], Curve]:
+def settled_curve(signal: str, factor: float) -> Callable[[FlightResult], Curve]:
     """Return a curve over time, multiplied by ``factor``, from ten minutes after a satellite points to nadir."""
 
     def curve(flight: FlightResult) -> Curve:
@@ -92,7 +92,9 @@ PICTURES = {
     "lunar_landing": SystemPicture(
         (
             Panel(
-                "distance north of the site, km", "altitude, km", {"": against("plant.position[1]", "plant.altitude")}
+                "distance north of the site, km",
+                "altitude, km",
+                {"": curve_over_signal("plant.position[1]", "plant.altitude")},
             ),
             Panel(TIME, "speed, m/s", {"": size_over_time("plant.velocity")}),
             Panel(TIME, "thrust acceleration, m/s²", {"": over_time("guidance.thrust_acceleration")}),
@@ -116,7 +118,7 @@ PICTURES = {
             Panel(
                 "distance north of the site, m",
                 "altitude, m",
-                {"": against("plant.position[1]", "plant.altitude", 1.0)},
+                {"": curve_over_signal("plant.position[1]", "plant.altitude", 1.0)},
             ),
             Panel(TIME, "tilt, deg", {"": over_time("plant.tilt", DEG)}),
             Panel(TIME, "speed, m/s", {"": size_over_time("plant.velocity")}),
@@ -164,7 +166,9 @@ PICTURES = {
     "earth_pointing": SystemPicture(
         (
             Panel(TIME, "angular velocity, deg/s", {"": size_over_time("satellite.angular_velocity", DEG)}),
-            Panel(TIME, "angle of the boresight, arcsec", {"": settled("monitor.half_cone", ARCSEC)}, band=(180.0,)),
+            Panel(
+                TIME, "angle of the boresight, arcsec", {"": settled_curve("monitor.half_cone", ARCSEC)}, band=(180.0,)
+            ),
             Panel(
                 TIME,
                 "momentum of the wheels, N m s",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.authoring.block import block_slots, where_it_flies
+from perilune.analysis.authoring.block import block_slots, find_smallest_system
 from perilune.analysis.cli import main
 from tests.support.lengths import either
 from tests.support.loops.exact_margins import crossings
@@ -81,7 +81,7 @@ def test_a_block_of_a_slot(slot, tmp_path, monkeypatch, capsys):
     assert main(["new", "block", name, "--slot", slot]) == 0
     assert capsys.readouterr().out.splitlines()[-2] == f"  perilune export {name}.py"
     assert main(["export", f"{name}.py"]) == 0
-    system, component = where_it_flies(slot)
+    system, component = find_smallest_system(slot)
     native = perilune.simulate(system, use={component: name}, flavour="native")
     TASKS[slot](native)
     python = perilune.simulate(system, use={component: name}, flavour="python", stop_time=either(None, 10.0))

@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from benchmarks.importers.contestant import Contestant, Course
-from benchmarks.importers.times import Times, compute_promised_ratios, disagreements
+from benchmarks.importers.contestant import Contestant, ExchangeSystem
+from benchmarks.importers.times import Times, compute_guaranteed_ratios, disagreements
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:
-    def prepare(course: Course):  # type: ignore[no-untyped-def]
+    def prepare(course: ExchangeSystem):  # type: ignore[no-untyped-def]
         raise NotImplementedError
 
     return Contestant(name, "native", "", algorithm, prepare, exact)
@@ -53,7 +53,7 @@ def test_a_step_is_what_the_long_flight_takes_over_the_short_one() -> None:
     theirs.add(short=5.0, long=8.0)
     assert ours.step() == pytest.approx(0.01)
     assert ours.start() == pytest.approx(0.99)
-    ratios = compute_promised_ratios(
+    ratios = compute_guaranteed_ratios(
         {"fused_limit": ours, "perilune_native": theirs, "libcosim": ours}, {"native": {"1": 20.0, "2": 38.0}}
     )
     assert ratios == pytest.approx({"perilune_native/fused_limit": 3.0, "two_workers/one_worker_native": 1.9})

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.importers.contestant import Course, Unavailable
+from benchmarks.importers.contestant import ExchangeSystem, Unavailable
 from benchmarks.importers.contestants import fused_limit
 from benchmarks.importers.contestants.loop_and_fmpy import prepare_loop
 from perilune.fmus_src.block import Block
@@ -25,9 +25,9 @@ def wired(*ends: tuple[str, str]) -> str:
     return "".join(connection(start, end) for start, end in ends)
 
 
-def course(folder: Path, fmus: Path, *elements: str, connections: str, bindings: str = "") -> Course:
+def course(folder: Path, fmus: Path, *elements: str, connections: str, bindings: str = "") -> ExchangeSystem:
     description = document(system(*elements, connections=connections, bindings=bindings))
-    return Course(pack(folder / "test.ssp", fmus / "native", description))
+    return ExchangeSystem(pack(folder / "test.ssp", fmus / "native", description))
 
 
 def test_parameters_sources_and_followers(tmp_path: Path, tiny_folder: Path, blocks: dict[str, type[Block]]) -> None:

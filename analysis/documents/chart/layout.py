@@ -90,7 +90,7 @@ def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
     Fewer ticks are at rounder numbers.
     """
     chosen: Sequence[int] = range(len(axis.ticks))
-    for ticks in _rounder(axis):
+    for ticks in _iterate_thinner_ticks(axis):
         if len(ticks) >= FEWEST:
             chosen = ticks
         if _length_for(_select(axis, chosen)) <= length:
@@ -98,7 +98,7 @@ def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
     return chosen
 
 
-def _rounder(axis: Axis) -> Iterator[Sequence[int]]:
+def _iterate_thinner_ticks(axis: Axis) -> Iterator[Sequence[int]]:
     """Yield ever smaller selections of ticks: every second, third, ... name; of numbers multiples of a round step."""
     everything: Sequence[int] = range(len(axis.ticks))
     yield everything

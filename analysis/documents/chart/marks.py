@@ -33,12 +33,12 @@ def band_areas(
     return areas
 
 
-def across(low: float, high: float, colour: str, opacity: float) -> Area:
+def horizontal_band(low: float, high: float, colour: str, opacity: float) -> Area:
     """Return the area between two ordinates, across the full width of the axes."""
     return Area(SQUARE[:, 0], low + (high - low) * SQUARE[:, 1], (True, False), colour.lower(), opacity, 0.0)
 
 
-def during(begin: float, end: float, colour: str, opacity: float) -> Area:
+def vertical_band(begin: float, end: float, colour: str, opacity: float) -> Area:
     """Return the area between two abscissas, across the full height of the axes."""
     return Area(begin + (end - begin) * SQUARE[:, 0], SQUARE[:, 1], (False, True), colour.lower(), opacity, 0.0)
 
@@ -76,12 +76,12 @@ def hatch(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
     return Area(placed[:, 0], placed[:, 1], (False, False), colour.lower(), 1.0, width)
 
 
-def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
+def horizontal_line(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a horizontal line across the axes at an ordinate; dashes are in multiples of its width."""
     return Rule(at=at, colour=colour.lower(), width=width, dashes=dashes)
 
 
-def instant(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
+def vertical_line(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
     """Return a vertical line across the axes at an abscissa; dashes are in multiples of its width."""
     return Rule(at=at, upright=True, colour=colour.lower(), width=width, dashes=dashes)
 

@@ -59,7 +59,7 @@ def render_page(template: Path, **content: Any) -> str:
     embedded = Embedded()
     environment.globals["contents"] = Contents()
     environment.filters |= {
-        "answering": partial(answering, embedded=embedded),
+        "answering": partial(make_interactive, embedded=embedded),
         "exact": exact,
         "unit": display_unit,
         "number": number,
@@ -71,7 +71,7 @@ def render_page(template: Path, **content: Any) -> str:
     return environment.get_template(template.name).render(style=style, embedded=embedded, **content)
 
 
-def answering(figure: Drawing, embedded: Embedded) -> Markup:
+def make_interactive(figure: Drawing, embedded: Embedded) -> Markup:
     """Return a figure whose values the page's script shows at the cursor."""
     svg = figure.svg
     number = embedded.add_figure(figure.charts)

@@ -29,7 +29,7 @@ class FigurePanel(NamedTuple):
     legend: Sequence[tuple[Markup, str]] = ()
 
 
-def far(values: np.ndarray) -> tuple[float, str]:
+def choose_length_unit(values: np.ndarray) -> tuple[float, str]:
     """Return factor and unit to display lengths in m: km if one is long, else m."""
     return (1e-3, "km") if values.size and np.nanmax(np.abs(values)) >= KILOMETRES else (1.0, "m")
 

@@ -18,7 +18,7 @@ from ....common.visible import on_one_line, visible
 from ..common import colours
 from ..font.text import text_width
 from .graph import DiagramBlock, Edge, PortKey, Side
-from .placement import Arrangement, Placed, Point, Route, Segment, Terminal
+from .placement import Arrangement, PlacedBlock, Point, Route, Segment, Terminal
 from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain
 from .strokes import uncovered
 
@@ -87,7 +87,7 @@ def _draw_system(parent: etree._Element, placement: Arrangement, origin: Point, 
         _draw_terminal(group, terminal)
 
 
-def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
+def _draw_frame(parent: etree._Element, placed: PlacedBlock, colour: str) -> None:
     frame = {"x": placed.x, "y": placed.y, "width": placed.width, "height": placed.height, "rx": 3.0}
     attributes = {name: _number(length) for name, length in frame.items()}
     fill = "none" if placed.inner is not None else PAPER
@@ -115,7 +115,7 @@ def _path(points: Sequence[Point]) -> str:
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
 
 
-def _draw_text(parent: etree._Element, placed: Placed) -> None:
+def _draw_text(parent: etree._Element, placed: PlacedBlock) -> None:
     """Draw the texts of a block."""
     block, shape = placed.block, placed.shape
     signals = [signal for key, port in block.ports.items() if not key.entry for signal in port.signals]

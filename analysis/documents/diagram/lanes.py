@@ -22,7 +22,7 @@ PITCH = 5.0  # between lines
 ROW_GAP = 16.0  # between a lane and the next row
 
 
-class Way(Enum):
+class PortDirection(Enum):
     """Direction of an edge at its port: leaving, or entering from a lane below or above, or from the channel."""
 
     LEAVES = "leaves"
@@ -31,7 +31,7 @@ class Way(Enum):
     FROM_CHANNEL = "from the channel"
 
 
-Stub = tuple[PortKey, Way]
+Stub = tuple[PortKey, PortDirection]
 
 
 @dataclass
@@ -78,16 +78,16 @@ class _Lanes:
         joined.move(-self.left, 0.0)
         return joined
 
-    def way_in(self, edge: Edge) -> Way:
+    def way_in(self, edge: Edge) -> PortDirection:
         """Return the direction in which an edge enters its target."""
         source, target = self.homes[edge.source], self.homes[edge.target]
         if edge.target in self.first and target not in (source, source + 1):
-            return Way.FROM_CHANNEL
-        return Way.FROM_ABOVE if target > source else Way.FROM_BELOW
+            return PortDirection.FROM_CHANNEL
+        return PortDirection.FROM_ABOVE if target > source else PortDirection.FROM_BELOW
 
     def lane_row(self, edge: Edge) -> int:
         """Return the row above the last lane of an edge: the target's row, or the one before it."""
-        return self.homes[edge.target] - (self.way_in(edge) is Way.FROM_ABOVE)
+        return self.homes[edge.target] - (self.way_in(edge) is PortDirection.FROM_ABOVE)
 
     def widen(self, number: int) -> None:
         """Insert strips for vertical lines at the sides of a row's columns.
@@ -98,7 +98,7 @@ class _Lanes:
         """
         row = self.rows[number]
         ports, parity = row.ports(), PITCH / 2.0 * (number % 2)
-        stubs: dict[Stub, None] = dict.fromkeys((edge.source, Way.LEAVES) for edge in self.edges)
+        stubs: dict[Stub, None] = dict.fromkeys((edge.source, PortDirection.LEAVES) for edge in self.edges)
         stubs |= dict.fromkeys((edge.target, self.way_in(edge)) for edge in self.edges)
         strips: list[tuple[float, float]] = []
         shift = 0.0
@@ -108,7 +108,7 @@ class _Lanes:
                 chosen = [
                     (key, way)
                     for key, way in stubs
-                    if key in here and (way is Way.LEAVES) is leaves and way is not Way.FROM_CHANNEL
+                    if key in here and (way is PortDirection.LEAVES) is leaves and way is not PortDirection.FROM_CHANNEL
                 ]
                 chosen.sort(key=lambda stub: _nearness(stub, ports))
                 width = CLEARANCE + PITCH * (len(chosen) + 1) if chosen else 0.0
@@ -129,9 +129,9 @@ class _Lanes:
             by_source[edge.source].append(edge)
         groups = [_Group(source, self.homes[source], edges) for source, edges in by_source.items()]
         for group in groups:
-            group.lanes[group.row] = [self.stubs[group.source, Way.LEAVES]]
+            group.lanes[group.row] = [self.stubs[group.source, PortDirection.LEAVES]]
             for edge in group.edges:
-                if self.way_in(edge) is not Way.FROM_CHANNEL:
+                if self.way_in(edge) is not PortDirection.FROM_CHANNEL:
                     end = self.stubs[edge.target, self.way_in(edge)]
                     group.lanes.setdefault(self.lane_row(edge), []).append(end)
         return groups
@@ -177,9 +177,9 @@ class _Lanes:
         """Return the points of an edge's line."""
         (x0, y0), (x9, y9) = self.ports[edge.source], self.ports[edge.target]
         y0, y9 = y0 + self.tops[self.homes[edge.source]], y9 + self.tops[self.homes[edge.target]]
-        x1, lane = self.stubs[edge.source, Way.LEAVES], group.y[group.row]
+        x1, lane = self.stubs[edge.source, PortDirection.LEAVES], group.y[group.row]
         points = [(x0, y0), (x1, y0), (x1, lane)]
-        if self.way_in(edge) is Way.FROM_CHANNEL:
+        if self.way_in(edge) is PortDirection.FROM_CHANNEL:
             return [*points, (group.channel, lane), (group.channel, y9), (x9, y9)]
         if self.lane_row(edge) != group.row:
             points += [(group.channel, lane), (group.channel, group.y[self.lane_row(edge)])]
@@ -190,5 +190,5 @@ class _Lanes:
 
 def _nearness(stub: Stub, ports: dict[PortKey, Point]) -> tuple[bool, float]:
     """Return the sort key that orders vertical lines by distance from their block."""
-    is_above, height = stub[1] is Way.FROM_ABOVE, ports[stub[0]][1]
+    is_above, height = stub[1] is PortDirection.FROM_ABOVE, ports[stub[0]][1]
     return is_above, height if is_above else -height

@@ -10,7 +10,7 @@ from .elk import Engine
 from .graph import DiagramBlock, Edge, PortKey, Side
 from .lanes import join_rows
 from .order import order_blocks
-from .placement import Arrangement, Placed, Point, Route, Terminal
+from .placement import Arrangement, PlacedBlock, Point, Route, Terminal
 from .rows import columns_of, cut_into_rows
 from .shapes import HEADER, LINE, MARGIN, TERMINAL, Label, port_label, shape_of
 
@@ -34,7 +34,7 @@ class _System:
 
     def placement(self) -> Arrangement:
         """Lay out the system, in several rows if it would be wider than a page."""
-        boxes: list[Placed | Terminal] = [self.block(block) for block in self.system.blocks]
+        boxes: list[PlacedBlock | Terminal] = [self.block(block) for block in self.system.blocks]
         boxes += self.terminals()
         forward, back = self.split()
         whole = self.arrange(boxes, forward)
@@ -48,7 +48,7 @@ class _System:
         between = [edge for edge in forward if homes[edge.source] != homes[edge.target]]
         return join_rows(placements, [*between, *back])
 
-    def rows(self, whole: Arrangement) -> list[list[Placed | Terminal]]:
+    def rows(self, whole: Arrangement) -> list[list[PlacedBlock | Terminal]]:
         """Return the boxes of each row; a nested system is a single row with terminals at both sides.
 
         A terminal of the whole system is in the row of the first block that it is connected to.
@@ -66,7 +66,7 @@ class _System:
             rows[next((k for k, row in enumerate(cut) if others and numbers[others[0]] in row), 0)].append(terminal)
         return rows
 
-    def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Arrangement:
+    def arrange(self, boxes: Sequence[PlacedBlock | Terminal], edges: Sequence[Edge]) -> Arrangement:
         """Lay out boxes and the edges between them from left to right."""
         lines = [
             {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
@@ -77,7 +77,7 @@ class _System:
         for node, box in zip(result["children"], boxes, strict=True):
             box.x, box.y, box.width, box.height = (node[name] for name in ("x", "y", "width", "height"))
             points = {port["id"]: (node["x"] + port["x"], node["y"] + port["y"]) for port in node["ports"]}
-            if isinstance(box, Placed):
+            if isinstance(box, PlacedBlock):
                 box.ports = {key: points[self.ids[key]] for key in box.shape.labels}
                 placement.blocks.append(box)
             else:
@@ -89,11 +89,11 @@ class _System:
             placement.routes.append(Route(edge, [(bend["x"], bend["y"]) for bend in bends]))
         return placement
 
-    def block(self, block: DiagramBlock) -> Placed:
+    def block(self, block: DiagramBlock) -> PlacedBlock:
         """Place a block and add its node; a nested system is laid out first."""
         shape = shape_of(block, self.notes)
         node: dict[str, Any] = {"id": f"b{len(self.nodes)}"}
-        placed = Placed(block, shape, 0.0, 0.0, shape.width, shape.height, {})
+        placed = PlacedBlock(block, shape, 0.0, 0.0, shape.width, shape.height, {})
         positions: dict[PortKey, Point] = {}
         if block.blocks:
             placed.inner = _System(self.engine, block, is_whole=False).placement()

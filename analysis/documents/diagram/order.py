@@ -16,11 +16,13 @@ def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
     """
     other = short_loops(count, arcs)
     mine = list(range(count))
-    positions = mine if loops_back(mine, arcs) < MUCH * loops_back(other, arcs) or not arcs else other
-    return mine if loops_back(mine, arcs) == loops_back(other, arcs) else positions
+    positions = (
+        mine if count_feedback_edges(mine, arcs) < MUCH * count_feedback_edges(other, arcs) or not arcs else other
+    )
+    return mine if count_feedback_edges(mine, arcs) == count_feedback_edges(other, arcs) else positions
 
 
-def loops_back(positions: Sequence[int], arcs: Sequence[Arc]) -> int:
+def count_feedback_edges(positions: Sequence[int], arcs: Sequence[Arc]) -> int:
     """Return the number of feedback edges."""
     return sum(positions[source] >= positions[target] for source, target in arcs)
 

@@ -15,7 +15,7 @@ Segment = tuple[Point, Point]
 
 
 @dataclass
-class Placed:
+class PlacedBlock:
     """A placed block; ``ports`` are the ends of edges, ``inner`` is the content of a nested system at ``origin``."""
 
     block: DiagramBlock
@@ -82,12 +82,12 @@ class Arrangement:
 
     width: float
     height: float
-    blocks: list[Placed] = field(default_factory=list)
+    blocks: list[PlacedBlock] = field(default_factory=list)
     terminals: list[Terminal] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
 
     @property
-    def boxes(self) -> list[Placed | Terminal]:
+    def boxes(self) -> list[PlacedBlock | Terminal]:
         """Blocks and terminals, which lines must avoid."""
         return [*self.blocks, *self.terminals]
 
@@ -126,13 +126,13 @@ class Arrangement:
             for routes in groups.values():
                 segments = list(dict.fromkeys(segment for route in routes for segment in route.segments()))
                 for point in dict.fromkeys(point for segment in segments for point in segment):
-                    if len({way for segment in segments for way in _ways(point, segment)}) > 2:
+                    if len({way for segment in segments for way in _iterate_directions(point, segment)}) > 2:
                         seen.setdefault(point, routes[0].edge.source)
         for point, source in seen.items():
             yield source, point
 
 
-def _ways(point: Point, segment: Segment) -> Iterator[Point]:
+def _iterate_directions(point: Point, segment: Segment) -> Iterator[Point]:
     """Yield the directions, as signs, in which a segment leads away from a point on it."""
     (x0, y0), (x1, y1) = segment
     x, y = point

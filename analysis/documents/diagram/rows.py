@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from .placement import Placed, Terminal
+from .placement import PlacedBlock, Terminal
 
 WIDEST = 1360.0  # of a row of several columns
 
@@ -17,10 +17,10 @@ class BoxColumn:
 
     left: float
     right: float
-    boxes: list[Placed | Terminal]
+    boxes: list[PlacedBlock | Terminal]
 
 
-def columns_of(boxes: Iterable[Placed | Terminal]) -> list[BoxColumn]:
+def columns_of(boxes: Iterable[PlacedBlock | Terminal]) -> list[BoxColumn]:
     """Return the columns of boxes from left to right."""
     columns: list[BoxColumn] = []
     for box in sorted(boxes, key=lambda box: box.x):

@@ -13,7 +13,7 @@ def uncovered(points: Sequence[Point], earlier: Iterable[Segment]) -> list[list[
     known = list(earlier)
     stretches: list[list[Point]] = []
     for segment in pairwise(points):
-        for start, end in _free(segment, known):
+        for start, end in _iterate_uncovered(segment, known):
             if stretches and stretches[-1][-1] == start:
                 stretches[-1].append(end)
             else:
@@ -21,7 +21,7 @@ def uncovered(points: Sequence[Point], earlier: Iterable[Segment]) -> list[list[
     return stretches
 
 
-def _free(segment: Segment, earlier: Iterable[Segment]) -> Iterator[Segment]:
+def _iterate_uncovered(segment: Segment, earlier: Iterable[Segment]) -> Iterator[Segment]:
     """Yield the uncovered stretches of a segment, from its start to its end."""
     axis = 0 if segment[0][1] == segment[1][1] else 1
     start, end = segment[0][axis], segment[1][axis]

@@ -132,7 +132,7 @@ def _arc(reader: SignalReader, element: etree._Element) -> Arc:
     position = reader.signal(element, "arc", unit=METRE)
     if len(position.names) != 3:
         problem = f"arc {position.label} has {len(position.names)} elements"
-        raise reader.unfit(element, position.label, problem, "name a position")
+        raise reader.signal_error(element, position.label, problem, "name a position")
     radius = reader.parameter(element, "radius")
     if not radius > 0.0:
         raise reader.refuse(element, f"radius {element.get('radius')} is {radius:g}", "name the radius of the ground")

@@ -57,10 +57,10 @@ class SignalReader(AnnotationReader):
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
             remedy = "name one as COMPONENT.VARIABLE"
-            raise self.unfit(element, name, f"{attribute} {name}: no such parameter", remedy)
+            raise self.signal_error(element, name, f"{attribute} {name}: no such parameter", remedy)
         value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start_text)
         if fmu.variables[variable].type not in NUMBERS:
-            raise self.unfit(element, name, f"{attribute} {name} is not a number", "name another parameter")
+            raise self.signal_error(element, name, f"{attribute} {name} is not a number", "name another parameter")
         return float(value)
 
     def integer(self, element: etree._Element, attribute: str) -> int:
@@ -118,7 +118,7 @@ class SignalReader(AnnotationReader):
         """Check that a signal has ``size`` elements. Raises InputError."""
         if size != len(signal.names):
             problem = f"{problem}, {signal.label} has {len(signal.names)} elements"
-            raise self.unfit(element, signal.label, problem, "give as many")
+            raise self.signal_error(element, signal.label, problem, "give as many")
 
     def displayed(self, name: str) -> str:
         """Return a signal's name as displayed in figures."""
@@ -137,7 +137,7 @@ class SignalReader(AnnotationReader):
     def find_signal(self, element: etree._Element, attribute: str, name: str) -> Signal:
         """Read one scalar among several named by an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
-            raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
+            raise self.signal_error(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
         return Signal(self.displayed(name), (name,), self.network.unit_of(name), 1.0, (0.0,))
 
     def scalar(
@@ -151,7 +151,7 @@ class SignalReader(AnnotationReader):
     ) -> Signal:
         signal = self.signal(element, attribute, types=types, unit=unit, like=like)
         if len(signal.names) > 1:
-            raise self.unfit(element, signal.label, f"{attribute} {signal.label} is a vector", "name a scalar")
+            raise self.signal_error(element, signal.label, f"{attribute} {signal.label} is a vector", "name a scalar")
         return signal
 
     def signal(
@@ -171,12 +171,12 @@ class SignalReader(AnnotationReader):
         what = f"{attribute} {name}"
         names = tuple(elements(name, self.types))
         if not names:
-            raise self.unfit(element, name, f"{what}: no such signal", suggestion(name, self.types))
+            raise self.signal_error(element, name, f"{what}: no such signal", suggestion(name, self.types))
         if any(self.types[item] not in types for item in names):
-            raise self.unfit(element, name, f"{what} is not {' or '.join(types)}", "name another signal")
+            raise self.signal_error(element, name, f"{what} is not {' or '.join(types)}", "name another signal")
         unit_of_first = self.network.unit_of(names[0])
         if any(self.network.unit_of(item) != unit_of_first for item in names):
-            raise self.unfit(element, name, f"{what}: its elements differ in unit", "name one of them")
+            raise self.signal_error(element, name, f"{what}: its elements differ in unit", "name one of them")
         signal = Signal(self.displayed(name), names, unit_of_first, 1.0, (0.0,) * len(names))
         if like is not None:
             self.check_size(element, f"{what} has {len(names)} elements", len(names), like)
@@ -215,11 +215,11 @@ class SignalReader(AnnotationReader):
         if declared is None or unit is None or not declared.fits(unit):
             actual, required = (each.name if each is not None else "none" for each in (declared, unit))
             problem = f"{what}: its unit is {actual}, required is {required}"
-            raise self.unfit(element, signal.label, problem, "correct the unit, or name another signal")
+            raise self.signal_error(element, signal.label, problem, "correct the unit, or name another signal")
         factor, offset = declared.conversion_to(unit)
         return Signal(signal.label, signal.names, unit, factor, (offset,) * len(signal.names))
 
-    def unfit(self, element: etree._Element, name: str, problem: str, remedy: str) -> Exception:
+    def signal_error(self, element: etree._Element, name: str, problem: str, remedy: str) -> Exception:
         """Return the error for a signal: MissingSignalError if its FMU was substituted, else InputError."""
         component, _ = split_name(name, self.network.fmus)
         if component in self.substituted:

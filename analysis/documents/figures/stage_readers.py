@@ -120,7 +120,7 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
     signal = reader.signal(element, "signal", unit=unit)
     if measure is None and len(signal.names) > 1:
         remedy = f"name a scalar, or write measure={' or '.join(f'{name!r}' for name in MEASURES)}"
-        raise reader.unfit(element, signal.label, f"signal {signal.label} is a vector", remedy)
+        raise reader.signal_error(element, signal.label, f"signal {signal.label} is a vector", remedy)
     if "about" in attributes and "less" in attributes:
         raise reader.refuse(element, "about and less", "give one of them")
     signal = reader.about(element, signal)

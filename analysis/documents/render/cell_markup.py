@@ -11,11 +11,10 @@ from ..cell import (
     Code,
     CommandLine,
     Digest,
-    Displayed,
+    DisplayedNumber,
     Faint,
     Inline,
     Interval,
-    Judged,
     LegendEntry,
     Lines,
     Link,
@@ -26,6 +25,7 @@ from ..cell import (
     Rich,
     Strong,
     Track,
+    VerdictCell,
 )
 from ..chart.legend import swatch_of
 from ..common.colours import Look
@@ -50,7 +50,7 @@ def cell_markup(cell: Cell) -> Markup:
             return escape(text)
         case Link(text, anchor):
             return Markup('<a href="#{}">{}</a>').format(anchor, text)
-        case Judged(verdict):
+        case VerdictCell(verdict):
             return escape(verdict)
         case Strong(inner):
             return Markup("<b>{}</b>").format(cell_markup(inner))
@@ -69,7 +69,7 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("at most {}").format(cell_markup(high))
         case Interval(low, high):
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
-        case Displayed(text, exactly):
+        case DisplayedNumber(text, exactly):
             return with_exact(repr(exactly).strip("()"), text)
         case QuantityVector(values, unit, digits, is_bare):
             numbers = Markup(", ").join(exact(value, unit, digits) for value in values)
@@ -94,13 +94,13 @@ def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
     inline = [content] if isinstance(content, str) else list(content)
     if is_sentence and isinstance(inline[0], str):
         inline[0] = inline[0][:1].upper() + inline[0][1:]
-    stop = "." if is_sentence and not isinstance(inline[-1], Judged) else ""
+    stop = "." if is_sentence and not isinstance(inline[-1], VerdictCell) else ""
     return Markup("").join(map(_inline_markup, inline)) + escape(stop)
 
 
 def _inline_markup(part: Inline) -> Markup:
     """Return the markup of an inline element; a verdict is coloured itself, in a table its cell is."""
-    if isinstance(part, Judged):
+    if isinstance(part, VerdictCell):
         return Markup('<span class="verdict {}">{}</span>').format(part.grade, part.verdict)
     return cell_markup(part)
 
@@ -112,7 +112,9 @@ def is_number(cell: Cell) -> bool:
             return is_number(inner)
         case Link(text):
             return text.isdecimal()
-    return not isinstance(cell, str | Code | CommandLine | Digest | Judged | Lines | Phrase | LegendEntry | Track | Bar)
+    return not isinstance(
+        cell, str | Code | CommandLine | Digest | VerdictCell | Lines | Phrase | LegendEntry | Track | Bar
+    )
 
 
 def cell_class(cell: Cell, column: str) -> str:
@@ -126,7 +128,7 @@ def cell_class(cell: Cell, column: str) -> str:
             return column or "unbroken"
         case Digest():
             return "hash"
-        case Judged(_, grade):
+        case VerdictCell(_, grade):
             return f"verdict {grade}"
         case Track():
             return "interval"

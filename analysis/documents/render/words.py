@@ -11,11 +11,10 @@ from ..cell import (
     Code,
     CommandLine,
     Digest,
-    Displayed,
+    DisplayedNumber,
     Faint,
     Head,
     Interval,
-    Judged,
     LegendEntry,
     Lines,
     Link,
@@ -29,6 +28,7 @@ from ..cell import (
     RowNote,
     Strong,
     Track,
+    VerdictCell,
 )
 from ..common.quantities import display_unit, in_display_unit, number
 from ..model import Document, KeyNumbers, Table, Verdict
@@ -37,7 +37,7 @@ from ..model import Document, KeyNumbers, Table, Verdict
 def cell_text(cell: Cell) -> str:
     """Return a cell as text, quantities in their displayed unit; empty for a drawing."""
     match cell:
-        case Code(text) | CommandLine(text) | Digest(text) | Displayed(text) | Link(text) | Judged(text):
+        case Code(text) | CommandLine(text) | Digest(text) | DisplayedNumber(text) | Link(text) | VerdictCell(text):
             return text
         case Phrase(content, _):
             return rich_text(content)

@@ -22,7 +22,7 @@ from ..figures.scene.declared import (
     ThrustAxis,
     WindAngles,
 )
-from .quaternions import carry_axis, make_continuous, multiply, normalise, turn
+from .quaternions import compose_rotations, make_continuous, multiply, normalise, transport_axis
 
 
 class Pose(NamedTuple):
@@ -104,12 +104,12 @@ def _attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarr
             return normalise(attitude.signal.values(flight))
         case Angles():
             angles = np.concatenate([signal.values(flight) for signal in attitude.signals])
-            return turn(zip(attitude.sequence, angles, strict=True), flight.time.size)
+            return compose_rotations(zip(attitude.sequence, angles, strict=True), flight.time.size)
         case ThrustAxis():
-            return carry_axis(attitude.signal.values(flight))
+            return transport_axis(attitude.signal.values(flight))
         case WindAngles() if isinstance(body.position, Geographic) and frame is not None:
             return _wind_attitudes(attitude, body.position, flight, frame)
-    return turn([], flight.time.size)
+    return compose_rotations([], flight.time.size)
 
 
 def _wind_attitudes(attitude: WindAngles, position: Geographic, flight: Flight, frame: LocalFrame) -> np.ndarray:
@@ -127,8 +127,8 @@ def _wind_attitudes(attitude: WindAngles, position: Geographic, flight: Flight, 
     )
     size = flight.time.size
     quarter = np.full(size, 0.5 * np.pi)
-    to_fixed = turn([("z", longitude + quarter), ("x", quarter - latitude)], size)
-    to_scene = turn([("x", frame.latitude - quarter), ("z", -frame.longitude - quarter)], size)
-    to_horizon = turn([("z", heading), ("y", -flight_path_angle), ("x", quarter)], size)
-    to_velocity = turn([("x", bank), ("y", sideslip_angle), ("z", angle_of_attack)], size)
+    to_fixed = compose_rotations([("z", longitude + quarter), ("x", quarter - latitude)], size)
+    to_scene = compose_rotations([("x", frame.latitude - quarter), ("z", -frame.longitude - quarter)], size)
+    to_horizon = compose_rotations([("z", heading), ("y", -flight_path_angle), ("x", quarter)], size)
+    to_velocity = compose_rotations([("x", bank), ("y", sideslip_angle), ("z", angle_of_attack)], size)
     return multiply(multiply(to_scene, to_fixed), multiply(to_horizon, to_velocity))

@@ -17,7 +17,7 @@ def multiply(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return np.concatenate([(a * b - np.sum(u * v, axis=0))[None], a * v + b * u + np.cross(u, v, axis=0)])
 
 
-def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
+def compose_rotations(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
     """Return the composition of rotations by angles (rad), [n], each about its axis as rotated by the previous ones."""
     total = np.zeros((4, size))
     total[0] = 1.0
@@ -52,7 +52,7 @@ def make_continuous(quaternion: np.ndarray) -> np.ndarray:
     return result
 
 
-def carry_axis(axis: np.ndarray) -> np.ndarray:
+def transport_axis(axis: np.ndarray) -> np.ndarray:
     """Return attitudes with z axes along these directions, [3, n], without rotation about z between samples.
 
     The first attitude rotates z to its direction by the shortest rotation. The rotation from sample to sample is the

@@ -21,11 +21,11 @@ from ....fmus_src.own_digests import note_own
 from ....fmus_src.units import BASE_UNITS, UnitDefinition
 from ...runtime.ssp.archive import SystemArchive
 from .choices import Preparation, candidate_name, check_slots, find_default
-from .component_source import file_name, write_kind
+from .component_source import file_name, write_component_header
 from .dependence import find_dependencies
 from .model import SystemModel
 from .page import PAGE, README, system_page, system_readme
-from .parameter_sets import OtherSets, other_parameter_sets
+from .parameter_sets import ConvertedSets, other_parameter_sets
 from .reference import find_default_program, record_reference
 from .request import OneFmu
 from .system_in_c import write_system
@@ -72,12 +72,12 @@ def build_system_fmu(
 
 
 def _files(
-    name: str, model: SystemModel, variables: Variables, others: OtherSets, is_ours: bool, guid: str
+    name: str, model: SystemModel, variables: Variables, others: ConvertedSets, is_ours: bool, guid: str
 ) -> dict[str, bytes]:
     """Return the files of the FMU except binaries and manifest."""
     about = model.network.description.system.about or f"the system {name}"
     sources = read_wrapper(2, "system")
-    sources |= {file_name(source): write_kind(source).encode() for source in model.sources}
+    sources |= {file_name(source): write_component_header(source).encode() for source in model.sources}
     sources[f"{name}.c"] = write_system(name, about, guid, model, variables).encode()
     dependencies = find_dependencies([choice.prepared for choice in model.choices], model.inputs, model.faulty)
     first = model.first

@@ -26,7 +26,7 @@ TABLES = re.compile(
     r"^/\* In order of declaration. \*/\nstatic const Element.*?(?=^static void model_initialize)", re.M | re.S
 )
 ELEMENT = re.compile(r"\{offsetof\(Block, ([^)]+)\), (KIND_\w+) \| (ROLE_\w+), \d+\},")
-GIVEN = ("ROLE_PARAMETER", "ROLE_TUNABLE", "ROLE_INPUT")
+RETAINED_ROLES = ("ROLE_PARAMETER", "ROLE_TUNABLE", "ROLE_INPUT")
 REMEDY = "build it again with this Perilune"
 FILE = """\
 /* The block {name} as a component of a system: translated, as the file says below, with a prefix before its names. */
@@ -105,10 +105,10 @@ class BlockCode:
         return f"{self.prefix}Component"
 
     @property
-    def given(self) -> dict[str, bool]:
+    def parameters_and_inputs(self) -> dict[str, bool]:
         """The struct members that contain parameters and inputs; True for arrays."""
-        given = [each.path for each in self.members if each.role in GIVEN]
-        return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in given}
+        paths = [each.path for each in self.members if each.role in RETAINED_ROLES]
+        return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in paths}
 
 
 def read_component_source(fmu: Fmu, name: str) -> BlockCode:
@@ -150,7 +150,7 @@ def rename(text: str, prefix: str) -> str:
     return re.sub(r"^(CHECKED_FUNCTION|CHECKED_POWER)\((\w+),", rf"\1({prefix}\2,", renamed, flags=re.MULTILINE)
 
 
-def write_kind(source: BlockCode) -> str:
+def write_component_header(source: BlockCode) -> str:
     """Return the header of a type of component, which the system's source includes."""
     name = source.prefix.removesuffix("_")
     return FILE.format(
@@ -160,13 +160,13 @@ def write_kind(source: BlockCode) -> str:
         type=source.type_name,
         block=source.block,
         prefix=source.prefix,
-        given="\n".join(f"    {line}" for line in _begin(source)),
+        given="\n".join(f"    {line}" for line in _restore_starts(source)),
     )
 
 
-def _begin(source: BlockCode) -> list[str]:
+def _restore_starts(source: BlockCode) -> list[str]:
     """Return the statements that restore start values of a block but retain its parameters and inputs."""
-    retained = [_retain(member, is_array) for member, is_array in source.given.items()]
+    retained = [_retain(member, is_array) for member, is_array in source.parameters_and_inputs.items()]
     begin = f"self->block = {source.prefix}STARTS;"
     return [f"const {source.block} given = self->block;", begin, *retained] if retained else [begin]
 

@@ -9,7 +9,7 @@ from lxml.html import builder
 
 from ....fmus_src.evidence.page import page_of
 from .model import SystemModel
-from .parameter_sets import OtherSets
+from .parameter_sets import ConvertedSets
 from .variables import FmuVariable
 
 PAGE = "documentation/index.html"
@@ -41,7 +41,7 @@ def system_page(
     model: SystemModel,
     declared: Sequence[FmuVariable],
     dependencies: Mapping[str, Sequence[str]],
-    others: OtherSets,
+    others: ConvertedSets,
 ) -> bytes:
     """Return the HTML page: components, simulation, variables."""
     body = [builder.H1(name), builder.P(about), builder.H2("Components")]

@@ -19,14 +19,16 @@ RESOURCES = "resources/"
 
 
 @dataclass(frozen=True)
-class OtherSets:
+class ConvertedSets:
     """Converted parameter sets: ``files`` by name in the FMU; ``unfit`` states why others do not fit, a line each."""
 
     files: Mapping[str, bytes]
     unfit: Sequence[str]
 
 
-def other_parameter_sets(preparation: Preparation, system: SystemElement, declared: Sequence[FmuVariable]) -> OtherSets:
+def other_parameter_sets(
+    preparation: Preparation, system: SystemElement, declared: Sequence[FmuVariable]
+) -> ConvertedSets:
     """Return the further sets of the ``system``, each reduced to the ``declared`` variables that it changes."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
@@ -37,7 +39,7 @@ def other_parameter_sets(preparation: Preparation, system: SystemElement, declar
             about = "parameters and inputs of the system's FMU that this set changes"
             stem = PurePosixPath(file).stem
             files[f"{RESOURCES}{file.removeprefix(RESOURCES)}"] = write_parameter_set(stem, changed, about)
-    return OtherSets(files, unfit)
+    return ConvertedSets(files, unfit)
 
 
 def _others(preparation: Preparation, system: SystemElement) -> list[str]:

@@ -65,7 +65,7 @@ class ChoiceStatements:
             variable = self.choice.names[slot].removeprefix(f"{candidate.component}.")
             if variable in candidate.fmu.variables:
                 lines += [self.injection(number, "inject_again") for number in self._faults_on(slot)]
-                lines += self.give(candidate, slot)
+                lines += self.set_variable(candidate, slot)
         return lines
 
     def _faults_on(self, slot: int) -> list[int]:
@@ -75,7 +75,7 @@ class ChoiceStatements:
         """Return the statement that applies a fault to its signal."""
         return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
-    def give(self, candidate: SlotCandidate, slot: int) -> list[str]:
+    def set_variable(self, candidate: SlotCandidate, slot: int) -> list[str]:
         """Return the statements that write the signal of a slot to its variable in a component."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
@@ -110,7 +110,7 @@ class ChoiceStatements:
     def candidate(self, row: Instruction) -> SlotCandidate:
         return self.choice.candidates[row.component]
 
-    def settle(self, component: int) -> list[str]:
+    def initialise_component(self, component: int) -> list[str]:
         """Return the statements that initialise a component whose inputs were set since its last computation."""
         if not self.is_starting or component not in self.unsettled:
             return []
@@ -145,7 +145,7 @@ def quoted(text: str) -> str:
 
 
 def _mode(to: ChoiceStatements, row: Instruction) -> list[str]:
-    return to.settle(row.component) if row.function == FUNCTION["ExitInitializationMode"] else []
+    return to.initialise_component(row.component) if row.function == FUNCTION["ExitInitializationMode"] else []
 
 
 def _copy(to: ChoiceStatements, row: Instruction) -> list[str]:
@@ -190,23 +190,26 @@ def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], 
 
 def _set_real(to: ChoiceStatements, row: Instruction) -> list[str]:
     if row.function == GET_REAL:  # a READ_REAL, whose values are not checked
-        return [*to.settle(row.component), *(f"{s} = {to.variable(row, slot)[0]};" for slot, s in to.slots(row))]
-    return _give(to, row)
+        return [
+            *to.initialise_component(row.component),
+            *(f"{s} = {to.variable(row, slot)[0]};" for slot, s in to.slots(row)),
+        ]
+    return _set_variables(to, row)
 
 
-def _give(to: ChoiceStatements, row: Instruction) -> list[str]:
+def _set_variables(to: ChoiceStatements, row: Instruction) -> list[str]:
     to.unsettled.add(row.component)
-    return [line for slot, _ in to.slots(row) for line in to.give(to.candidate(row), slot)]
+    return [line for slot, _ in to.slots(row) for line in to.set_variable(to.candidate(row), slot)]
 
 
 def _get_real(to: ChoiceStatements, row: Instruction) -> list[str]:
     reads = [f"{signal} = {to.variable(row, slot)[0]};" for slot, signal in to.slots(row)]
     checks = [f"CHECK_FINITE({signal}, {quoted(to.choice.names[slot])})" for slot, signal in to.slots(row)]
-    return [*to.settle(row.component), *reads, *checks]
+    return [*to.initialise_component(row.component), *reads, *checks]
 
 
 def _get_whole(to: ChoiceStatements, row: Instruction) -> list[str]:
-    lines = to.settle(row.component)
+    lines = to.initialise_component(row.component)
     for slot, signal in to.slots(row):
         path, kind = to.variable(row, slot)
         if kind == "KIND_INTEGER":
@@ -236,7 +239,7 @@ WRITERS: dict[int, Callable[[ChoiceStatements, Instruction], list[str]]] = {
     codes.MAP: _map,
     codes.INJECT: _inject,
     codes.SET_REAL: _set_real,
-    codes.SET_WHOLE: _give,
+    codes.SET_WHOLE: _set_variables,
     codes.GET_REAL: _get_real,
     codes.GET_WHOLE: _get_whole,
     codes.STEP: _step,

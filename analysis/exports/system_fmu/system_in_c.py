@@ -18,7 +18,7 @@ from .statements import ChoiceStatements, quoted
 from .tables_in_c import write_tables
 from .variables import FmuVariable, Variables
 from .variables_in_c import (
-    pass_along,
+    convert_along_chain,
     write_parameters,
     write_signals,
     write_starts,
@@ -99,7 +99,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     for name, chain in passed.items():
         initialise.open("{")
         initialise.add(f"double value = (double)self->{variables.parameter_paths[chain[0]]};")
-        for line in pass_along(program.prepared.network, chain):
+        for line in convert_along_chain(program.prepared.network, chain):
             initialise.add(line)
         initialise.add(f"s[{model.signals[name]}] = value;")
         initialise.close("}")

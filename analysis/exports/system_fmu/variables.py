@@ -58,7 +58,7 @@ class FmuVariable:
 
 
 @dataclass(frozen=True)
-class Passed:
+class PassedParameter:
     """A component's parameter whose value follows from a system parameter.
 
     ``path`` is the parameter's, ``chain`` are the connectors from the system parameter to it in the ``network``, and
@@ -73,7 +73,7 @@ class Passed:
 
 
 @dataclass(frozen=True)
-class Tuned:
+class TunedParameter:
     """A tunable parameter of a component with fault inputs; its value without faults is at ``path``."""
 
     candidate: SlotCandidate
@@ -101,8 +101,8 @@ class Variables:
 
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
         self.model = model
-        self.passed: list[Passed] = []
-        self.tuned: list[Tuned] = []
+        self.passed: list[PassedParameter] = []
+        self.tuned: list[TunedParameter] = []
         self.parameter_paths: dict[str, str] = {}
         self.starts: dict[str, ParameterValue] = {}
         self.effective: dict[str, ParameterValue] = {}
@@ -190,7 +190,7 @@ class Variables:
             full, path = f"{candidate.component}.{variable.name}", candidate.path_of(variable.name)
             if variable.causality == "parameter" and full in self.model.faulty:
                 path = self.model.members.new(f"set_{candidate.label}.{variable.name}")
-                self.tuned.append(Tuned(candidate, variable, path))
+                self.tuned.append(TunedParameter(candidate, variable, path))
             given = settings.variables.get((candidate.component, variable.name))
             if given is not None:
                 self.starts[path] = given
@@ -200,7 +200,9 @@ class Variables:
                     if given is not None:
                         self.effective[f"{candidate.label}.{variable.name}"] = given
                     self.passed.append(
-                        Passed(path, candidate.member(variable.name).kind, tuple(chain), network, _is_tunable(variable))
+                        PassedParameter(
+                            path, candidate.member(variable.name).kind, tuple(chain), network, _is_tunable(variable)
+                        )
                     )
                     continue
             elif variable.causality != "input" or full in network.driver:

@@ -10,7 +10,7 @@ from ...runtime.system.network import Network, NodeLink
 from ...runtime.system.passing.parameters import numbers
 from .model import SystemModel
 from .statements import map_value
-from .variables import C_TYPES, Passed, Variables
+from .variables import C_TYPES, PassedParameter, Variables
 
 
 def write_signals(model: SystemModel) -> str:
@@ -77,7 +77,7 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
     for passed in variables.passed:
         lines.open("{")
         lines.add(f"double value = (double)self->{variables.parameter_paths[passed.chain[0]]};")
-        for line in pass_along(passed.network, passed.chain):
+        for line in convert_along_chain(passed.network, passed.chain):
             lines.add(line)
         lines.add(f"self->{passed.path} = {_cast(passed)};")
         lines.close("}")
@@ -106,12 +106,16 @@ def write_use(model: SystemModel, variables: Variables) -> str:
     return "\n".join([*lines.text, ""])
 
 
-def pass_along(network: Network, chain: Sequence[str]) -> list[str]:
+def convert_along_chain(network: Network, chain: Sequence[str]) -> list[str]:
     """Return the statements that convert ``value`` from the first connector of a chain to the last."""
-    return [line for number, name in enumerate(chain[1:]) for line in _pass_on(network, network.driver[name], number)]
+    return [
+        line
+        for number, name in enumerate(chain[1:])
+        for line in _convert_over_link(network, network.driver[name], number)
+    ]
 
 
-def _pass_on(network: Network, link: NodeLink, number: int) -> list[str]:
+def _convert_over_link(network: Network, link: NodeLink, number: int) -> list[str]:
     transformation = link.transformation
     if transformation.table:
         entries = numbers(network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])
@@ -120,5 +124,5 @@ def _pass_on(network: Network, link: NodeLink, number: int) -> list[str]:
     return [f"value = value * {literal(transformation.factor)} + {literal(transformation.offset)};"]
 
 
-def _cast(passed: Passed) -> str:
+def _cast(passed: PassedParameter) -> str:
     return {"KIND_REAL": "value", "KIND_INTEGER": "(int64_t)value", "KIND_BOOLEAN": "value != 0.0"}[passed.kind]

@@ -110,7 +110,7 @@ def commands_of(plan: BatchPlan) -> StudyCommands:
     return StudyCommands(replay, monte_carlo)
 
 
-def name_foreign(campaign: LoadedCampaign) -> None:
+def warn_of_foreign_fmus(campaign: LoadedCampaign) -> None:
     """Warn of the foreign FMUs in a campaign's folder before they run: the author of the folder chose them."""
     fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)

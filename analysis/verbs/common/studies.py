@@ -34,7 +34,7 @@ Study = TypeVar("Study", bound=_Writable)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Stored(Documented):
+class StoredResult(Documented):
     """Result of a study; ``folder`` is the folder in which it is stored, if any."""
 
     folder: Path | None = None
@@ -51,7 +51,7 @@ class Stored(Documented):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Required(Stored):
+class RequirementResult(StoredResult):
     """Result of a study with ``requirements``, the expressions of the option `require`."""
 
     requirements: Sequence[Expression] = ()

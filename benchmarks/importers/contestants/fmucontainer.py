@@ -10,10 +10,10 @@ from pathlib import Path
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-from ..contestant import Course, Fly, Unavailable, Values
+from ..contestant import ExchangeSystem, Fly, Unavailable, Values
 
 
-def prepare(course: Course, sequential: bool = False) -> Fly:
+def prepare(course: ExchangeSystem, sequential: bool = False) -> Fly:
     """Prepare a container FMU of the .ssp, simulated by FMPy with one doStep per communication point.
 
     By default it steps all FMUs and then exchanges values (Jacobi); ``sequential`` exchanges after each FMU, in the
@@ -54,7 +54,7 @@ def prepare(course: Course, sequential: bool = False) -> Fly:
     return fly
 
 
-def _build(course: Course, sequential: bool):  # type: ignore[no-untyped-def]
+def _build(course: ExchangeSystem, sequential: bool):  # type: ignore[no-untyped-def]
     """Build the container; return its description and the unpacked folder.
 
     Start values are passed explicitly, because the toolbox does not read parameter bindings.

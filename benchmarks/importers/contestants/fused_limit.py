@@ -13,7 +13,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compilers_for, local_platform
 from perilune.fmus_src.export.native_fmu import C_FILES
 
-from ..contestant import Course, Fly, Unavailable, Values
+from ..contestant import ExchangeSystem, Fly, Unavailable, Values
 from .fused_component import Part, write_part
 from .fused_main import FILE, write_main
 
@@ -22,7 +22,7 @@ FUSING = ("-flto", "-fvisibility=hidden")
 INCLUDED = [f"-I{C_FILES / folder}" for folder in ("instance", "kernel")]
 
 
-def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> Fly:
+def prepare(course: ExchangeSystem, blocks: Mapping[str, type[Block]] | None = None) -> Fly:
     """Prepare the same blocks, parameters and connections in the same order, with inlining left to the compiler.
 
     The C source and floating-point flags are those of the native FMUs, so values are equal to the last bit. Like
@@ -46,7 +46,7 @@ def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> 
     return fly
 
 
-def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
+def compile_system(course: ExchangeSystem, blocks: Mapping[str, type[Block]]) -> Path:
     """Compile the shared library in a new folder that also contains its sources; return its path."""
     platform = local_platform()
     if platform is None:
@@ -75,7 +75,7 @@ def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
     return library
 
 
-def _parts(course: Course, blocks: Mapping[str, type[Block]]) -> list[Part]:
+def _parts(course: ExchangeSystem, blocks: Mapping[str, type[Block]]) -> list[Part]:
     parts: list[Part] = []
     types: dict[str, str] = {}
     for number, (component, fmu) in enumerate(course.prepared.network.fmus.items()):

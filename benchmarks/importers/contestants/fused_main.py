@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from perilune.analysis.runtime.system.network import NodeLink
 from perilune.analysis.runtime.system.prepared import PreparedSystem
 
-from ..contestant import Course
+from ..contestant import ExchangeSystem
 from .fused_component import Part
 
 FILE = "fused.c"
@@ -39,13 +39,13 @@ const char *fly(double start, double step, int64_t steps, double *record)
 """
 
 
-def write_main(course: Course, parts: Sequence[Part]) -> str:
+def write_main(course: ExchangeSystem, parts: Sequence[Part]) -> str:
     """Return the unit; its function ``fly`` simulates and records `Course.names`."""
     return _Writer(course, parts).text()
 
 
 class _Writer:
-    def __init__(self, course: Course, parts: Sequence[Part]) -> None:
+    def __init__(self, course: ExchangeSystem, parts: Sequence[Part]) -> None:
         self.course = course
         self.prepared: PreparedSystem = course.prepared
         self.parts = {part.component: part for part in parts}

@@ -10,7 +10,7 @@ from lxml import etree
 
 from perilune.fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE
 
-from ..contestant import Course, Fly, Unavailable, Values
+from ..contestant import ExchangeSystem, Fly, Unavailable, Values
 
 OSP = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 COMMON = "http://ssp-standard.org/SSP1/SystemStructureCommon"
@@ -18,7 +18,7 @@ ANNOTATION = """<ssc:Annotation type="com.opensimulationplatform"><osp:Algorithm
 <osp:FixedStepAlgorithm baseStepSize="{step!r}" numWorkerThreads="{threads}"/></osp:Algorithm></ssc:Annotation>"""
 
 
-def prepare(course: Course, threads: int = 0) -> Fly:
+def prepare(course: ExchangeSystem, threads: int = 0) -> Fly:
     """Prepare an execution, read from the .ssp for every simulation; ``threads`` are additional ones.
 
     Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. At the start
@@ -64,7 +64,7 @@ def prepare(course: Course, threads: int = 0) -> Fly:
     return fly
 
 
-def _readable_copy(course: Course, threads: int) -> Path:
+def _readable_copy(course: ExchangeSystem, threads: int) -> Path:
     """Copy the .ssp without content that libcosim cannot read, and add its annotation for step and threads.
 
     libcosim requires both ends of a connection to be elements, so connections to system connectors are removed. It does

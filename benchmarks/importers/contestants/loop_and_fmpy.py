@@ -14,10 +14,10 @@ from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.fmu import Fmu
 from perilune.common.errors import InputError
 
-from ..contestant import Contestant, Course, Fly, Unavailable, Values
+from ..contestant import Contestant, ExchangeSystem, Fly, Unavailable, Values
 
 
-def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
+def prepare_loop(course: ExchangeSystem, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
     """Prepare a `Simulation` that reuses its instances and, like the others, continues after ``finished``."""
     prepared = course.flight(1, algorithm)
     prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
@@ -55,7 +55,7 @@ class _Unit:
         values[self.first : self.first + len(self.outputs)] = self.slave.getReal(self.outputs)
 
 
-def prepare_calls(course: Course) -> Fly:
+def prepare_calls(course: ExchangeSystem) -> Fly:
     """Prepare one setReal, doStep and getReal per FMU and step, in the order of Perilune's sequential algorithm."""
     prepared = course.prepared
     places: dict[str, int] = {}
@@ -100,7 +100,7 @@ def prepare_calls(course: Course) -> Fly:
     return fly
 
 
-def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _Unit:
+def _unit(course: ExchangeSystem, component: str, fmu: Fmu, places: dict[str, int]) -> _Unit:
     slave = FMU2Slave(
         guid=fmu.description.guid,
         unzipDirectory=str(fmu.folder),
@@ -128,7 +128,7 @@ def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _
     )
 
 
-def prepare_ssp(course: Course) -> Fly:
+def prepare_ssp(course: ExchangeSystem) -> Fly:
     """Prepare simulate_ssp, which unpacks and instantiates the FMUs for every simulation.
 
     Parameters are passed explicitly, because it does not read the bindings of the SSD. It sets all inputs to 0 in the

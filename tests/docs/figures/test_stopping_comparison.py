@@ -6,7 +6,7 @@ Truth: campaigns flown by dice, many of each kind; the page.
 import numpy as np
 import pytest
 
-from docs.figures.stopping_comparison import RATE, course, main, rules
+from docs.figures.stopping_comparison import RATE, compute_statistics, main, rules
 from perilune.common.paths import ROOT
 from tests.support.lengths import either
 
@@ -26,7 +26,7 @@ def test_courses_are_those_of_campaigns_flown(compared, place, rate):
     decided = met | refused
     end = np.where(decided.any(axis=1), decided.argmax(axis=1), len(steps) - 1)
     every = np.arange(many)
-    actual = course(rule, rate)
+    actual = compute_statistics(rule, rate)
     assert met[every, end].mean() == pytest.approx(actual.met, abs=2.0 / np.sqrt(many))  # four deviations of a half
     assert refused[every, end].mean() == pytest.approx(actual.refused, abs=2.0 / np.sqrt(many))
     assert np.array(rule.looks)[end].mean() == pytest.approx(actual.flights, rel=6.0 / np.sqrt(many))

@@ -12,7 +12,7 @@ from perilune.analysis.documents.common.colours import Look
 from perilune.analysis.documents.common.quantities import display_factor, label_with_unit
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.interactive.charts import Chart
-from perilune.analysis.documents.of.campaign.distributions import _ends
+from perilune.analysis.documents.of.campaign.distributions import _find_ends
 from tests.support.figures.axes import log_ticks_x
 from tests.support.figures.read_figure import read_charts
 
@@ -25,7 +25,7 @@ def read_distribution(metric: Metric, samples: Mapping[str, np.ndarray], styles:
         scaled = [series * display_factor(metric.unit) for series in samples.values()]
         everything = np.concatenate(scaled)
         everything = everything[np.isfinite(everything)]
-        low, high, is_logarithmic = _ends(everything)
+        low, high, is_logarithmic = _find_ends(everything)
         for variant, series, (colour, dashes, _) in zip(samples, scaled, styles, strict=True):
             finite = np.clip(np.sort(series[np.isfinite(series)]), low, None)
             probability = 100.0 * np.arange(1, finite.size + 1) / series.size

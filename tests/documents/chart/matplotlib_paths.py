@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from perilune.analysis.documents.common.colours import BLUE, FAINT, GREEN, look
-from perilune.analysis.documents.common.panels import far
+from perilune.analysis.documents.common.panels import choose_length_unit
 from perilune.analysis.documents.common.quantities import display_factor, label_with_unit
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.figures.declared import BandFigure, PathFigure, Signal
@@ -34,7 +34,7 @@ def path_chart(path: PathFigure, run: FlightResult, height: float, width: float,
     def line(signal: Signal) -> np.ndarray:
         return np.where(chosen, signal.plot_values(run)[0], np.nan)[rows]
 
-    (across, x_unit), (up, y_unit) = far(line(path.x)), far(line(path.y))
+    (across, x_unit), (up, y_unit) = choose_length_unit(line(path.x)), choose_length_unit(line(path.y))
 
     def draw(axes: Axes) -> None:
         x, y = across * line(path.x), up * line(path.y)

@@ -12,7 +12,13 @@ from hypothesis import strategies as st
 
 from perilune.analysis.documents.chart.axes import bare_axis, lane_axis, linear_axis, logarithmic_axis, named_axis
 from perilune.analysis.documents.chart.layout import lay_out
-from perilune.analysis.documents.chart.marks import across, band_areas, during, instant, level
+from perilune.analysis.documents.chart.marks import (
+    band_areas,
+    horizontal_band,
+    horizontal_line,
+    vertical_band,
+    vertical_line,
+)
 from perilune.analysis.documents.chart.plot import plot_charts
 from perilune.analysis.documents.chart.quantity import quantity_curve
 from perilune.analysis.documents.chart.symbols import OUTLINES, arrow, marker, marks
@@ -70,10 +76,10 @@ def test_everything_else():
         NO_BOX, UNIT, replace(UNIT, label=""), curves=curves,
         dots=[Dots(variant="nominal", names=("metric.a", "draw.b"), success=True, colour="#9a9a9a", size=2.5),
               Dots(variant="nominal", names=("metric.a", "draw.b"), colour="#d55e00", size=3.5, cross=True)],
-        areas=[*band_areas(ROWS, ROWS - 1.0, ROWS + 1.0, "#E69F00", 0.4), across(1.0, 2.0, "#009E73", 0.16),
-               during(0.5, 1.0, "#6b6b6b", 0.35),
+        areas=[*band_areas(ROWS, ROWS - 1.0, ROWS + 1.0, "#E69F00", 0.4), horizontal_band(1.0, 2.0, "#009E73", 0.16),
+               vertical_band(0.5, 1.0, "#6b6b6b", 0.35),
                Area(stroked, stroked**2, (False, False), "#222222", 0.5, 1.2, (4.0, 2.0))],
-        rules=[level(1.0, "#222222", 0.9, (5.0, 3.0)), instant(2.0, "#222222", 0.8)],
+        rules=[horizontal_line(1.0, "#222222", 0.9, (5.0, 3.0)), vertical_line(2.0, "#222222", 0.8)],
         notes=[ChartNote("12 dB", (1.0, 2.0), (False, False), (4.0, -3.0), ("left", "center"), "#222222", 8.0, True,
                     Backing("#ffffff", 0.8, 2.0)),
                ChartNote("nominal", (1.02, 1.5), (True, False), (0.0, 0.0), ("left", "center"), "#6b6b6b", 9.0)],

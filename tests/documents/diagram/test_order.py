@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.documents.diagram.order import loops_back, order_blocks, short_loops
+from perilune.analysis.documents.diagram.order import count_feedback_edges, order_blocks, short_loops
 from perilune.analysis.documents.diagram.rows import WIDEST, BoxColumn, cut_into_rows
 
 COUNT = 6
@@ -21,11 +21,13 @@ def test_short_loops(arcs):
     positions = short_loops(COUNT, arcs)
     assert sorted(positions) == list(range(COUNT))
     proper = [arc for arc in arcs if arc[0] != arc[1]]
-    assert loops_back(positions, proper) <= len(proper) / 2
-    fewest = min(loops_back(order, arcs) for order in permutations(range(COUNT)))
+    assert count_feedback_edges(positions, proper) <= len(proper) / 2
+    fewest = min(count_feedback_edges(order, arcs) for order in permutations(range(COUNT)))
     if fewest == 0:
-        assert loops_back(positions, arcs) == 0
-    assert loops_back(order_blocks(COUNT, arcs), arcs) <= max(fewest, 2 * loops_back(positions, arcs))
+        assert count_feedback_edges(positions, arcs) == 0
+    assert count_feedback_edges(order_blocks(COUNT, arcs), arcs) <= max(
+        fewest, 2 * count_feedback_edges(positions, arcs)
+    )
 
 
 def test_the_order_of_the_description_unless_it_is_much_worse():

@@ -11,8 +11,8 @@ import pytest
 from perilune.analysis.documents.chart.axes import fine_axis, linear_axis
 from perilune.analysis.documents.chart.lines import line
 from perilune.analysis.documents.interactive.charts import NO_BOX, Chart
-from perilune.analysis.documents.of.stability.figures import sight_figures
-from perilune.analysis.documents.of.stability.shared import alike, picture_of, together
+from perilune.analysis.documents.of.stability.figures import overview_figures
+from perilune.analysis.documents.of.stability.shared import are_indistinguishable, combine_loop_names, picture_of
 from perilune.analysis.documents.pictures import Figure
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 
@@ -35,19 +35,19 @@ def bode(loop):
 
 
 def bode_picture(loop, name):
-    return picture_of(sight_figures(loop, name)[0])
+    return picture_of(overview_figures(loop, name)[0])
 
 
 @pytest.mark.parametrize(("change", "same"), [(1e-9, True), (1e-4, True), (-1e-4, True), (0.1, False), (1.0, False)])
 def test_what_is_closer_than_half_a_line_is_the_same(loop, bode, change, same):
     """An axis of some 60 dB over 70 pt: 1e-4 is a thousandth of a point, 10 % is 0.83 dB, a point."""
     other = bode_picture(scaled(loop, 1.0 + change), "second")
-    assert alike(bode, other) == same
-    assert alike(other, bode) == same
+    assert are_indistinguishable(bode, other) == same
+    assert are_indistinguishable(other, bode) == same
 
 
 def test_other_words_are_another_figure(loop, bode):
-    figure = sight_figures(loop, "other")[0]
+    figure = overview_figures(loop, "other")[0]
     phase = figure.below
     (tick, _), *ticks = phase.x.ticks
     changed = (
@@ -57,9 +57,9 @@ def test_other_words_are_another_figure(loop, bode):
         replace(phase, curves=[replace(phase.curves[0], colour="#000000"), *phase.curves[1:]]),
         replace(phase, rules=phase.rules[:-1]),
     )
-    assert alike(bode, picture_of(figure))
+    assert are_indistinguishable(bode, picture_of(figure))
     for chart in changed:
-        assert not alike(bode, picture_of(replace(figure, below=chart))), chart.title
+        assert not are_indistinguishable(bode, picture_of(replace(figure, below=chart))), chart.title
 
 
 @pytest.fixture(scope="module")
@@ -95,8 +95,8 @@ def test_the_tables_of_each_are_there(page):
 
 def test_names_of_loops_are_said_briefly(loop):
     named = [replace(loop, name=name) for name in ("torque[1]", "torque[2]", "roll")]
-    assert together(named) == "torque[1], [2], roll"
-    assert together([loop, replace(loop, point="elsewhere")]) == f"late at {loop.point}, late at elsewhere"
+    assert combine_loop_names(named) == "torque[1], [2], roll"
+    assert combine_loop_names([loop, replace(loop, point="elsewhere")]) == f"late at {loop.point}, late at elsewhere"
 
 
 def test_places_are_those_on_paper():

@@ -30,7 +30,7 @@ from perilune.analysis.documents.of.stability.charts.frequency import (
 from perilune.analysis.documents.of.stability.charts.nyquist import balance_chart, nichols_chart, nyquist_chart
 from perilune.analysis.documents.of.stability.charts.poles import thin
 from perilune.analysis.documents.of.stability.charts.sets import margin_chart, sweep_charts
-from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, sight_figures
+from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, overview_figures
 from perilune.analysis.documents.of.stability.parts import modes
 from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
@@ -247,7 +247,7 @@ def test_planes_have_one_scale(report):
 
 
 def test_axes_of_a_bode_diagram_lie_above_each_other(report):
-    (bode, _) = sight_figures(report.loops[0], "a")
+    (bode, _) = overview_figures(report.loops[0], "a")
     panel = stack_panel(bode.label, bode.name, bode.words, (bode.chart, bode.below), bode.height, HALF_WIDTH)
     gain, phase = (chart for drawing in panel.figure.drawings for chart in drawing.charts)
     assert (gain.box[0], gain.box[2]) == (phase.box[0], phase.box[2])

@@ -31,7 +31,7 @@ def draw_axes(frame: FluidFrame) -> Iterator[str]:
         return
     ticks, few = list(enumerate(frame.x.ticks)), set(frame.x.few)
     y = frame.down(np.array([at for at, _ in frame.y.ticks]))
-    level = "".join(f"M0 {at:.2f}h{frame.width:g}" for at in y[_have_lines(frame.y, frame.y.ticks)])
+    level = "".join(f"M0 {at:.2f}h{frame.width:g}" for at in y[_find_grid_ticks(frame.y, frame.y.ticks)])
     edges = f"M0 0v{frame.height:g}h{frame.width:g}"
     strokes = "".join(f"M0 {at:.2f}h{STROKE:g}" for at in y if frame.y.marked)
     if few:
@@ -39,22 +39,22 @@ def draw_axes(frame: FluidFrame) -> Iterator[str]:
         yield f'<g class="{FINE}-{frame.x.narrow}">{fine}</g>'
     yield frame.stretch_up(_edge(strokes), STROKE)
     yield _abscissa(frame, [tick for index, tick in ticks if not few or index in few], level, edges)
-    texts = [("0", frame.rise(at), text) for at, (_, text) in zip(y, frame.y.ticks, strict=True)]
+    texts = [("0", frame.format_y(at), text) for at, (_, text) in zip(y, frame.y.ticks, strict=True)]
     yield _texts(frame.y, "end", (-text_offset(frame.y), MIDDLE * frame.y.size), texts)
 
 
 def _abscissa(frame: FluidFrame, ticks: list[tuple[float, str]], grid: str, edges: str) -> str:
     """Return the ticks of the abscissa as SVG: labels, marks, and the lines of a ``grid``."""
     x = frame.across(np.array([at for at, _ in ticks]))
-    grid += "".join(f"M{at:.2f} {frame.height:g}V0" for at in x[_have_lines(frame.x, ticks)])
+    grid += "".join(f"M{at:.2f} {frame.height:g}V0" for at in x[_find_grid_ticks(frame.x, ticks)])
     strokes = "".join(f"M{at:.2f} 0v{STROKE:g}" for at in x if frame.x.marked)
     below = frame.stretch_across(_edge(strokes), STROKE)
-    texts = [(frame.along(at), "100%", text) for at, (_, text) in zip(x, ticks, strict=True)]
+    texts = [(frame.format_x(at), "100%", text) for at, (_, text) in zip(x, ticks, strict=True)]
     offset = (0.0, text_offset(frame.x) + ASCENT * frame.x.size)
     return frame.stretch_edges(_grid(grid) + _edge(edges)) + below + _texts(frame.x, "middle", offset, texts)
 
 
-def _have_lines(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
+def _find_grid_ticks(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
     """Return True for each tick with a grid line, [ticks]: ticks with labels, or all if none has a label."""
     named = np.array([bool(text) for _, text in ticks], dtype=bool)
     return axis.grid & (named | ~named.any())

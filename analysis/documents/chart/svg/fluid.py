@@ -27,15 +27,15 @@ class FluidFrame(Frame):
     name: str
     margins: tuple[float, float, float, float]
 
-    def along(self, x: float) -> str:
+    def format_x(self, x: float) -> str:
         return _percentage(x / self.width)
 
-    def rise(self, y: float) -> str:
+    def format_y(self, y: float) -> str:
         return _percentage(y / self.height)
 
-    def put(self, x: float, y: float, element: str) -> str:
+    def place_element(self, x: float, y: float, element: str) -> str:
         """Return an element, drawn about the origin, at a position."""
-        return f'<svg x="{self.along(x)}" y="{self.rise(y)}" {VISIBLE}>{element}</svg>'
+        return f'<svg x="{self.format_x(x)}" y="{self.format_y(y)}" {VISIBLE}>{element}</svg>'
 
     def stretch(self, elements: str) -> str:
         """Return paths stretched with the area, clipped at its edges."""
@@ -59,9 +59,9 @@ class FluidFrame(Frame):
 
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
         if len(positions) == 1:
-            return self.put(*positions[0], element)
+            return self.place_element(*positions[0], element)
         key = f"{self.name}-{zlib.crc32(f'{element}{positions}'.encode()):x}"
-        copies = (f'<use href="#{key}" x="{self.along(x)}" y="{self.rise(y)}"/>' for x, y in positions)
+        copies = (f'<use href="#{key}" x="{self.format_x(x)}" y="{self.format_y(y)}"/>' for x, y in positions)
         return f'<defs><g id="{key}">{element}</g></defs>{"".join(copies)}'
 
 

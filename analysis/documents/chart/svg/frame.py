@@ -56,11 +56,11 @@ class Frame:
         x, y = (np.array([each]) for each in at)
         return float(self.across(x, of_axes=of_axes[0])[0]), float(self.down(y, of_axes=of_axes[1])[0])
 
-    def along(self, x: float) -> str:
+    def format_x(self, x: float) -> str:
         """Return an abscissa as text of an SVG attribute."""
         return f"{x:.2f}"
 
-    def rise(self, y: float) -> str:
+    def format_y(self, y: float) -> str:
         """Return an ordinate as text of an SVG attribute."""
         return f"{y:.2f}"
 
@@ -72,7 +72,7 @@ class Frame:
         """Return copies of an element, drawn about the origin, at these positions."""
         return "".join(f'<g transform="translate({x:g} {y:g})">{element}</g>' for x, y in positions)
 
-    def has(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return True for each position within the area or on its edge, [rows]."""
         inside: np.ndarray = (
             (x >= self.left - EDGE) & (x <= self.right + EDGE) & (y >= self.top - EDGE) & (y <= self.bottom + EDGE)

@@ -30,7 +30,7 @@ def draw_dots(frame: Frame, dots: Dots, x: np.ndarray, y: np.ndarray) -> str:
 
 def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the positions within the axes, in tenths of pt, [marks, 2]."""
-    return np.rint(10.0 * np.stack([x, y], axis=1)[frame.has(x, y)]).astype(np.int64)
+    return np.rint(10.0 * np.stack([x, y], axis=1)[frame.contains(x, y)]).astype(np.int64)
 
 
 def _draw(frame: Frame, marker: Marker, positions: np.ndarray) -> str:
@@ -43,7 +43,7 @@ def _draw(frame: Frame, marker: Marker, positions: np.ndarray) -> str:
     paint = f'fill="{marker.fill or "none"}"{edge}'
     if not marker.outline:
         return "".join(
-            f'<circle cx="{frame.along(x / 10)}" cy="{frame.rise(y / 10)}" r="{marker.size / 2.0:g}" {paint}/>'
+            f'<circle cx="{frame.format_x(x / 10)}" cy="{frame.format_y(y / 10)}" r="{marker.size / 2.0:g}" {paint}/>'
             for x, y in positions.tolist()
         )
     return _shapes(frame, positions, marker.outline, marker.size, paint)

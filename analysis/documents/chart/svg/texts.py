@@ -18,9 +18,9 @@ def draw_note(frame: FluidFrame, note: ChartNote) -> str:
     """Return a text with its backing at a point of the data or of the axes; empty if the point is outside."""
     x, y = frame.point(note.at, note.of_axes)
     of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
-    if not frame.has(*np.array(of_data)[:, np.newaxis]).all():
+    if not frame.contains(*np.array(of_data)[:, np.newaxis]).all():
         return ""
-    return frame.put(x, y, _write(note))
+    return frame.place_element(x, y, _write(note))
 
 
 def _write(note: ChartNote) -> str:

@@ -18,7 +18,7 @@ from .scatters import failure_figures, outcome_marks
 MOST_INPUTS = 3  # of a metric
 
 
-class Driver(NamedTuple):
+class CorrelatedInputs(NamedTuple):
     """A metric of a variant with its most correlated inputs: names and rank correlations."""
 
     variant: str
@@ -26,7 +26,7 @@ class Driver(NamedTuple):
     inputs: list[tuple[str, float]]
 
 
-def drivers(result: CampaignResult) -> list[Driver]:
+def drivers(result: CampaignResult) -> list[CorrelatedInputs]:
     """Return a row for each metric of each variant with rank correlations, the largest correlation first."""
     names = input_names(result.plan.campaign)
     rows = []
@@ -37,7 +37,7 @@ def drivers(result: CampaignResult) -> list[Driver]:
             known = [(name, rho) for name, rho in correlations.items() if rho is not None]
             known.sort(key=lambda item: -abs(item[1]))
             if known:
-                rows.append(Driver(variant, metric, known[:MOST_INPUTS]))
+                rows.append(CorrelatedInputs(variant, metric, known[:MOST_INPUTS]))
     return rows
 
 

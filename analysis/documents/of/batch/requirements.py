@@ -8,7 +8,7 @@ from ....campaigns.definition.campaign import Campaign
 from ....campaigns.requirement_verdicts import RequirementVerdict
 from ....campaigns.summary import Summary
 from ....campaigns.tables import bound_text, requirement_rows, unevaluated_text
-from ...cell import Cell, Code, Head, Judged, Percentage, Phrase, Quantity, Row, RowHeading, RowNote, Strong
+from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, RowNote, Strong, VerdictCell
 from ...common.quantities import display_unit, in_display_unit, number
 from ...model import Node, Note, Section, Table
 from ..campaign.verdict_table import GRADES
@@ -56,7 +56,7 @@ def _row(variant: str, result: RequirementVerdict) -> tuple[Cell, ...]:
         more = Phrase([each for number in numbers for each in (", ", number)][1:])
     return (
         variant,
-        Judged(result.verdict, GRADES[result.verdict]),
+        VerdictCell(result.verdict, GRADES[result.verdict]),
         result.flights,
         result.failures,
         Percentage(result.consumer_risk),

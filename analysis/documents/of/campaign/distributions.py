@@ -67,7 +67,7 @@ def distribution_chart(
     scaled = [series * display_factor(metric.unit) for series in samples.values()]
     everything = np.concatenate(scaled)
     everything = everything[np.isfinite(everything)]
-    low, high, is_logarithmic = _ends(everything)
+    low, high, is_logarithmic = _find_ends(everything)
     if half_range:
         low, high, is_logarithmic = min(low, -half_range), max(high, half_range), False
     lines, dots = [], []
@@ -117,7 +117,7 @@ def distribution_note(*, of_successes: bool) -> Note:
     )
 
 
-def _ends(numbers: np.ndarray) -> tuple[float, float, bool]:
+def _find_ends(numbers: np.ndarray) -> tuple[float, float, bool]:
     """Return the ends of an axis, and True if it is logarithmic."""
     minimum, maximum = float(numbers.min()), float(numbers.max())
     positive = numbers[numbers > 0.0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...cell import Cell, Head, Judged, Link, Percentage, Quantity, Rich, Strong, Track
+from ...cell import Cell, Head, Link, Percentage, Quantity, Rich, Strong, Track, VerdictCell
 from ...common.colours import Look
 from ...common.quantities import label_with_unit
 from ...model import Node, Note, Table, Text
@@ -40,7 +40,7 @@ def verdict_nodes(table: VerdictTable, styles: Mapping[str, Look], anchors: Anch
 def unjudged_node() -> Text:
     """Return that a campaign without requirements has no verdict, and how to declare one."""
     return Text([
-        Judged("Not judged", "not-applicable"),
+        VerdictCell("Not judged", "not-applicable"),
         ": no requirements declared; see Requirements in docs/campaigns.md",
     ])  # fmt: skip
 
@@ -67,7 +67,7 @@ def _row(table: VerdictTable, row: VerdictRow, styles: Mapping[str, Look], ancho
     rate, (low, high) = row.entry.success_rate, row.entry.success_interval
     content: list[Cell] = [
         variant_cell(row.variant, styles),
-        *([Judged(row.verdict, row.grade)] if table.has_verdicts else []),
+        *([VerdictCell(row.verdict, row.grade)] if table.has_verdicts else []),
         _strong(row.is_best, Percentage(rate)),
         interval_cell((low, high)),
         Track(rate, low, high, table.start, has_ends=row is table.rows[-1]),

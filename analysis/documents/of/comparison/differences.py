@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ....campaigns.compare.comparison import SUCCESS, CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
-from ...cell import Displayed, Inline
+from ...cell import DisplayedNumber, Inline
 from ...common.quantities import display_unit, in_display_unit, number
 from .pairs import PairGroup, PairRow, points
 
@@ -81,6 +81,6 @@ def _metric_words(name: str, unit: str, row: PairRow[PairedValues]) -> Differenc
     return Difference(row.a, row.b, words, estimate.p_value)
 
 
-def _signed(value: float, unit: str) -> Displayed:
+def _signed(value: float, unit: str) -> DisplayedNumber:
     text = number(in_display_unit(value, unit))
-    return Displayed(f"+{text}" if value > 0.0 else text, value)
+    return DisplayedNumber(f"+{text}" if value > 0.0 else text, value)

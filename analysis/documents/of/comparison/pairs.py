@@ -11,7 +11,7 @@ from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ...cell import (
     Cell,
-    Displayed,
+    DisplayedNumber,
     Faint,
     Head,
     Interval,
@@ -40,7 +40,7 @@ class PairRow(Generic[T]):
     estimate: T
 
     @property
-    def is_sure(self) -> bool:
+    def is_significant(self) -> bool:
         """True if the confidence interval of the difference excludes 0."""
         interval = self.estimate.interval
         return interval is not None and not interval[0] <= 0.0 <= interval[1]
@@ -134,21 +134,23 @@ def _table(
             body.append(RowHeading([Strong(group.name), f", {unit}" if unit else ""]))
         for row in rows:
             difference, interval, *others = numbers(row.estimate, group.unit)
-            body.append((_pair_cell(row, styles), difference, Strong(interval) if row.is_sure else interval, *others))
+            body.append(
+                (_pair_cell(row, styles), difference, Strong(interval) if row.is_significant else interval, *others)
+            )
     return Table([heads[0], *(Head(head, column="numbers") for head in heads[1:])], body, style="tight")
 
 
-def points(difference: float) -> Displayed:
+def points(difference: float) -> DisplayedNumber:
     """Return the difference of two rates in percentage points, with a sign unless it is 0."""
     text = f"{100.0 * difference:+.2f}" if difference else "0.00"
-    return Displayed(text.replace("-", MINUS), difference)
+    return DisplayedNumber(text.replace("-", MINUS), difference)
 
 
-def p_value(probability: float | None) -> Displayed | None:
+def p_value(probability: float | None) -> DisplayedNumber | None:
     """Return the p-value of a test as a cell; None without one."""
     if probability is None:
         return None
-    return Displayed(f"{probability:.4f}" if probability >= LEAST_P else f"< {LEAST_P:.4f}", probability)
+    return DisplayedNumber(f"{probability:.4f}" if probability >= LEAST_P else f"< {LEAST_P:.4f}", probability)
 
 
 def _pair_cell(row: PairRow[T], styles: Styles) -> Lines:

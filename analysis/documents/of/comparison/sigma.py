@@ -26,7 +26,7 @@ NORMAL = {limit: float(norm.cdf(limit) - norm.cdf(-limit)) for limit in LIMITS}
 
 
 @dataclass(frozen=True)
-class Within:
+class SigmaFraction:
     """Fraction of trials within a number of standard deviations, with its 95 % interval."""
 
     rate: float
@@ -45,7 +45,7 @@ class SigmaRow:
     count: int
     mean: float | None
     std: float | None
-    within: list[Within]
+    within: list[SigmaFraction]
 
 
 def is_over_sigma(metric: Metric) -> bool:
@@ -61,7 +61,7 @@ def sigma_rows(comparison: CampaignComparison) -> list[SigmaRow]:
         reported = values[np.isfinite(values) & (values != 0.0)]
         count = int(reported.size)
         inside = [int(np.sum(np.abs(reported) <= limit)) for limit in LIMITS] if count else []
-        within = [Within(number / count, success_interval(number, count)) for number in inside]
+        within = [SigmaFraction(number / count, success_interval(number, count)) for number in inside]
         mean = float(reported.mean()) if count else None
         deviation = float(reported.std(ddof=1)) if count > 1 else None
         rows.append(SigmaRow(metric.name, label, count, mean, deviation, within))
@@ -88,7 +88,7 @@ def _metric_of(row: SigmaRow) -> str:
     return row.metric
 
 
-def _within_cell(estimate: Within, limit: int) -> Cell:
+def _within_cell(estimate: SigmaFraction, limit: int) -> Cell:
     low, high = estimate.interval
     interval = Interval(Percentage(low, DECIMALS), Percentage(high, DECIMALS))
     cell = Lines([Percentage(estimate.rate, DECIMALS), Faint(interval)], is_line_on_paper=True)

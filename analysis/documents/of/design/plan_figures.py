@@ -17,7 +17,7 @@ from ...chart.lines import line
 from ...chart.symbols import arrow, mark, marker
 from ...chart.ticks import axis_ends
 from ...common.colours import FAINT, INK, Look, look
-from ...common.panels import HALF_WIDTH, PANEL_HEIGHT, far
+from ...common.panels import HALF_WIDTH, PANEL_HEIGHT, choose_length_unit
 from ...common.quantities import number
 from ...interactive import charts
 from ...interactive.charts import NO_BOX, Axis, Chart, ChartNote
@@ -165,7 +165,7 @@ def path_chart(
 
     ``shown`` are positions and thrust angles of the drawn paths, a row each: abscissa and ordinate (m), angle (rad).
     """
-    scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
+    scales = [choose_length_unit(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
     factors = (scales[0][0], scales[1][0])
     paths = [(factors[0] * rows[0], factors[1] * rows[1]) for rows in shown]
     curves = [

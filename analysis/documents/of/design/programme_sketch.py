@@ -10,7 +10,7 @@ import numpy as np
 from ....design.transfers.programme import Programme
 from ...chart.axes import linear_axis
 from ...chart.lines import line
-from ...chart.marks import during, instant, level
+from ...chart.marks import horizontal_line, vertical_band, vertical_line
 from ...chart.symbols import mark, marker
 from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, INK, SKY, VERMILION
@@ -47,14 +47,14 @@ def sketch_chart(programme: Programme) -> Chart:
     low, high = axis_ends(tilt)
     lane = LANE * (high - low)
     dimensions = [(0, f"tp = {number(tp, 4)} s", t7 - tp, t7), (3, f"t7 = {number(t7, 4)} s", 0.0, t7)]
-    rules, levels = [level(0.0, FAINT, 0.8)], []
+    rules, levels = [horizontal_line(0.0, FAINT, 0.8)], []
     if t2 > 0.0:
         dimensions += [(1, f"t2 = {number(t2, 4)} s", 0.0, t2), (2, f"t5 = {number(t5, 4)} s", 0.0, t5)]
-        rules += [instant(at, FAINT, 0.8, DOTS) for at in (t2, t5)]
+        rules += [vertical_line(at, FAINT, 0.8, DOTS) for at in (t2, t5)]
     if programme.threshold is not None and w > 0.0:
         dimensions.append((0, f"w = {number(w, 4)} s", t2, t2 + w))
         threshold = programme.threshold * float(tilt.min())
-        rules.append(level(threshold, VERMILION, 1.1, DASHES))
+        rules.append(horizontal_line(threshold, VERMILION, 1.1, DASHES))
         words = f"k = {number(programme.threshold, 3)} of the largest tilt"
         levels.append(_text(words, (t7, threshold), VERMILION, "right"))
     arrows, notes = [], []
@@ -71,7 +71,7 @@ def sketch_chart(programme: Programme) -> Chart:
         y,
         title="tilt of thrust from the vertical, deg",
         curves=[line(time, tilt, BLUE, width=1.8, name="tilt", unit="deg"), *arrows],
-        areas=[during(begin, end, SKY, 0.3) for begin, end in programme.burns],
+        areas=[vertical_band(begin, end, SKY, 0.3) for begin, end in programme.burns],
         rules=rules,
         notes=[*notes, *levels],
     )

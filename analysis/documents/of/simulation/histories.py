@@ -198,12 +198,12 @@ def history_chart(group: SignalGroup, result: FlightResult, *, intervals: tuple[
     if group.type == "Boolean":
         ordinate = named_axis((-0.15, 1.15), [(0.0, "false"), (1.0, "true")])
         return Chart(NO_BOX, abscissa, ordinate, curves=curves)
-    ends, notes = _ends(factor * values) if group.is_real else (axis_ends(values), [])
+    ends, notes = _find_ends(factor * values) if group.is_real else (axis_ends(values), [])
     ordinate = linear_axis(ends, intervals[1], integer=not group.is_real)
     return Chart(NO_BOX, abscissa, ordinate, curves=curves, notes=notes)
 
 
-def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[ChartNote]]:
+def _find_ends(values: np.ndarray) -> tuple[tuple[float, float], list[ChartNote]]:
     """Return the ends of the ordinate, clipped if few extreme values would flatten the rest, and a note on clipping."""
     finite = values[np.isfinite(values)]
     if not finite.size:

@@ -11,12 +11,12 @@ import numpy as np
 from ...chart.axes import linear_axis
 from ...chart.equal import Ends, to_scale
 from ...chart.layout import axes_size, lay_out, lay_out_fluid
-from ...chart.marks import across, level
+from ...chart.marks import horizontal_band, horizontal_line
 from ...chart.quantity import quantity_curve
 from ...chart.symbols import marker, marks
 from ...chart.ticks import axis_ends
 from ...common.colours import GRID, INK, look
-from ...common.panels import far
+from ...common.panels import choose_length_unit
 from ...interactive.charts import NO_BOX, Chart, Curve
 from .times_on_path import mark_rows, time_notes
 
@@ -53,12 +53,14 @@ def view_chart(view: View, width: float, height: float, *, fluid: bool = True) -
     if view.has_ground:
         ranges[1] = max(ranges[1], float(np.nanmax(everything[1])))
     is_equal = _is_legible_to_scale(*ranges)
-    both = far(everything)
-    scales, units = zip(*((both, both) if is_equal else map(far, everything)), strict=True)
+    both = choose_length_unit(everything)
+    scales, units = zip(*((both, both) if is_equal else map(choose_length_unit, everything)), strict=True)
     paths = [np.array(scales)[:, None] * path for path in view.paths]
     rows = mark_rows(view.time)
     curves, depth = _curves(view, paths, rows), GROUND * scales[1] * ranges[1]
-    areas, rules = ([across(-depth, 0.0, GRID, 1.0)], [level(0.0, INK, 0.8)]) if view.has_ground else ([], [])
+    areas, rules = (
+        ([horizontal_band(-depth, 0.0, GRID, 1.0)], [horizontal_line(0.0, INK, 0.8)]) if view.has_ground else ([], [])
+    )
     x, y = np.concatenate(paths, axis=1)
     ends = axis_ends(x, X_MARGIN), axis_ends(np.append(y, [-depth, 0.0]) if view.has_ground else y, Y_MARGIN)
     ordinate = f"{view.names[1]}, {units[1]}"

@@ -61,7 +61,7 @@ def _to_scale(chart: Chart, width: float, height: float, *, fluid: bool = True) 
     )
 
 
-def sight_figures(loop: LoopReport, name: str) -> list[Figure]:
+def overview_figures(loop: LoopReport, name: str) -> list[Figure]:
     """Return the first figures of a loop: Bode and Nichols diagram with margins and limits."""
     nichols = f"Nichols diagram of {loop.name}: {margin_words(loop)}"
     return [
@@ -100,7 +100,7 @@ def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
 def figures_by_part(loop: LoopReport, name: str) -> ByPart:
     """Return all figures of a loop: the first ones, those of its parts by name, and the rest under an empty key."""
     return {
-        SIGHT: sight_figures(loop, name),
+        SIGHT: overview_figures(loop, name),
         "": loop_figures(loop, name),
         "robust": [sensitivity_figure(loop, name)],
         "dispersed": dispersion_figures(loop, name),

@@ -14,7 +14,7 @@ from .figures import SIGHT, figures_by_part
 from .margins import loop_table
 from .paper import Paper, paper_of
 from .parts import Part, list_absent, parts
-from .shared import TOLERANCE, Shared, share
+from .shared import TOLERANCE, SharedFigures, share_figures
 from .words import anchor, fold_long, left_out, link, numeral, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the first figures
@@ -47,7 +47,7 @@ HOW_TO_READ = (
 def loop_nodes(report: StabilityStudy) -> list[Node]:
     """Return the definition of L, explanations of figures and tables, and all loops."""
     figures = [figures_by_part(loop, anchor(index)) for index, loop in enumerate(report.loops)]
-    shared = share(report.loops, figures)
+    shared = share_figures(report.loops, figures)
     paper = paper_of(shared)
     return [
         Text(
@@ -60,9 +60,9 @@ def loop_nodes(report: StabilityStudy) -> list[Node]:
     ]
 
 
-def _article(report: StabilityStudy, index: int, shared: Shared, paper: Paper) -> Group:
+def _article(report: StabilityStudy, index: int, shared: SharedFigures, paper: Paper) -> Group:
     loop = report.loops[index]
-    figures = {key: paper.mark(members) for key, members in shared.figures.items()}
+    figures = {key: paper.mark_printed(members) for key, members in shared.figures.items()}
     known = [replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]
     absent = list_absent(loop)
     details = [
@@ -98,7 +98,7 @@ def _figures(figures: Sequence[Figure]) -> list[Node]:
     return [Figures(lambda: figures)] if figures else []
 
 
-def _elsewhere(report: StabilityStudy, shared: Shared, *, at_sight: bool) -> list[Node]:
+def _elsewhere(report: StabilityStudy, shared: SharedFigures, *, at_sight: bool) -> list[Node]:
     """Return a reference to figures shown with another loop: the first ones, or the others."""
     labelled = {
         other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()
@@ -121,7 +121,7 @@ def _blocks(known: Sequence[Part]) -> list[list[Part]]:
     return blocks
 
 
-def _tiles(block: Sequence[Part], shared: Shared, paper: Paper) -> list[Tile]:
+def _tiles(block: Sequence[Part], shared: SharedFigures, paper: Paper) -> list[Tile]:
     """Return a block of parts, with several figures of a part below it, or a single one next to it."""
     nodes = [
         node
@@ -132,10 +132,10 @@ def _tiles(block: Sequence[Part], shared: Shared, paper: Paper) -> list[Tile]:
     return [Tile(nodes, is_wide=len(block[0].figures) > 1), *singles]
 
 
-def _group(part: Part, shared: Shared, paper: Paper) -> Group:
+def _group(part: Part, shared: SharedFigures, paper: Paper) -> Group:
     nodes = [
         fold_long(part.table, part.rows),
         *([Note(part.note)] if part.note else []),
         *([Repeat(part.command)] if part.command else []),
     ]
-    return Group(part.heading, nodes, level=4, is_printed=paper.prints(part.key, shared))
+    return Group(part.heading, nodes, level=4, is_printed=paper.is_table_printed(part.key, shared))

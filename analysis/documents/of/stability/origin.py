@@ -65,20 +65,20 @@ def hash_table(report: StabilityStudy) -> Table:
 def facts(report: StabilityStudy) -> list[tuple[str, Cell]]:
     """Return the other provenance: seed, step, versions and so on."""
     return [
-        (key.replace("_", " "), Phrase([*fact(value), " s"] if key in TIMES else fact(value)))
+        (key.replace("_", " "), Phrase([*make_fact_cell(value), " s"] if key in TIMES else make_fact_cell(value)))
         for key, value in report.provenance.items()
         if key not in ELSEWHERE
     ]
 
 
-def fact(value: object) -> list[Inline]:
+def make_fact_cell(value: object) -> list[Inline]:
     """Return one fact as a cell: a number, a text, or several."""
     if value is None or value in ([], {}, ()):
         return ["none"]
     if isinstance(value, dict):
-        return [part for key, entry in value.items() for part in (", ", f"{key} ", *fact(entry))][1:]
+        return [part for key, entry in value.items() for part in (", ", f"{key} ", *make_fact_cell(entry))][1:]
     if isinstance(value, list | tuple):
-        return [part for entry in value for part in (", ", *fact(entry))][1:]
+        return [part for entry in value for part in (", ", *make_fact_cell(entry))][1:]
     if isinstance(value, float) and not math.isfinite(value):
         return [NONE]
     return [numeral(value, digits=10)]

@@ -14,7 +14,7 @@ from ....stability.results.report import LoopReport, StabilityStudy
 from ...cell import LegendEntry
 from ...chart.axes import linear_axis
 from ...chart.lines import line
-from ...chart.marks import across, level
+from ...chart.marks import horizontal_band, horizontal_line
 from ...chart.symbols import marker, marks
 from ...chart.ticks import axis_ends
 from ...common.colours import COLOURS, INK, VERMILION, Look, look
@@ -25,7 +25,7 @@ from ...interactive.charts import NO_BOX, Chart, Curve
 from ...model import Node, Note
 from ...pictures import Figure, Figures
 from .charts.frequency import FORBIDDEN, WHITE
-from .shared import together
+from .shared import combine_loop_names
 from .words import numeral
 
 QUANTITIES = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS)
@@ -35,7 +35,7 @@ BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
 
 
 @dataclass(frozen=True)
-class Course:
+class MarginHistory:
     """Loops with equal margins over time; each loop has a report per time (s), ascending.
 
     For each quantity, ``upper`` are the nearest margins for increasing gain or lag, and ``lower`` (negative) those for
@@ -68,14 +68,14 @@ def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
     )
 
 
-def courses(report: StabilityStudy) -> list[Course]:
+def courses(report: StabilityStudy) -> list[MarginHistory]:
     """Return the loops studied at several times with the same settings."""
     points = {point.name: point for point in report.points}
     flights: dict[tuple[str, str], list[LoopReport]] = {}
     for loop in report.loops:
         settings = repr(sorted((name, str(value)) for name, value in points[loop.point].settings.items()))
         flights.setdefault((loop.name, settings), []).append(loop)
-    histories: list[Course] = []
+    histories: list[MarginHistory] = []
     for loops in flights.values():
         ordered = tuple(sorted(loops, key=lambda loop: points[loop.point].time))
         times = np.array([points[loop.point].time for loop in ordered])
@@ -84,7 +84,7 @@ def courses(report: StabilityStudy) -> list[Course]:
         sizes = {key: np.array([loop.margins.size(key) for loop in ordered]) for key in QUANTITIES}
         sides = {key: np.array([_sides(loop, key) for loop in ordered]) for key in QUANTITIES}
         upper, lower = ({key: pairs[:, side] for key, pairs in sides.items()} for side in (0, 1))
-        one = Course((ordered,), times, upper, lower, sizes)
+        one = MarginHistory((ordered,), times, upper, lower, sizes)
         same = next((index for index, other in enumerate(histories) if _alike(one, other)), None)
         if same is None:
             histories.append(one)
@@ -94,14 +94,14 @@ def courses(report: StabilityStudy) -> list[Course]:
     return histories
 
 
-def _alike(one: Course, other: Course) -> bool:
+def _alike(one: MarginHistory, other: MarginHistory) -> bool:
     if not np.array_equal(one.times, other.times) or _requirements(one) != _requirements(other):
         return False
     pairs = [(a[key], b[key]) for key in QUANTITIES for a, b in ((one.upper, other.upper), (one.lower, other.lower))]
     return all(np.allclose(*pair, rtol=SAME, atol=0.0, equal_nan=True) for pair in pairs)
 
 
-def _requirements(course: Course) -> set[tuple[MarginQuantity, float]]:
+def _requirements(course: MarginHistory) -> set[tuple[MarginQuantity, float]]:
     return {(item.quantity, item.limit) for loops in course.loops for loop in loops for item in loop.requirements}
 
 
@@ -110,7 +110,7 @@ def course_look(index: int) -> Look:
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
-def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Chart:
+def over_time_chart(histories: Sequence[MarginHistory], quantity: MarginQuantity) -> Chart:
     """Return one margin of all loops over time, negative for decreasing gain or lead; forbidden values are shaded.
 
     The mark of the nearer margin of each loop is filled, that of the other hollow. A cross at 0 is an unstable loop, a
@@ -121,10 +121,10 @@ def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Ch
     every = np.concatenate([course.sizes[quantity] for course in histories])
     top = BEYOND * max([1e-6, *every[np.isfinite(every)].tolist(), *limits])
     unit = "" if quantity.unit == "1" else quantity.unit
-    areas, rules, notes = [], [level(0.0, INK, 0.8)], []
+    areas, rules, notes = [], [horizontal_line(0.0, INK, 0.8)], []
     for limit in limits:
-        areas.append(across(-limit if is_below else 0.0, limit, FORBIDDEN, 1.0))
-        rules += [level(edge, VERMILION, 1.2) for edge in ((limit, -limit) if is_below else (limit,))]
+        areas.append(horizontal_band(-limit if is_below else 0.0, limit, FORBIDDEN, 1.0))
+        rules += [horizontal_line(edge, VERMILION, 1.2) for edge in ((limit, -limit) if is_below else (limit,))]
         words = f"required {number(limit)} {unit}".strip()
         at, colour = (1.0, limit), VERMILION.lower()
         notes.append(charts.ChartNote(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
@@ -145,7 +145,7 @@ def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Ch
     )
 
 
-def _margin_curves(course: Course, quantity: MarginQuantity, style: Look, top: float) -> list[Curve]:
+def _margin_curves(course: MarginHistory, quantity: MarginQuantity, style: Look, top: float) -> list[Curve]:
     sizes = course.sizes[quantity]
     lines, dots = [], []
     hollow, full = (marker(style.marker, SIZE, style.colour, fill=fill) for fill in (WHITE, style.colour))
@@ -166,7 +166,7 @@ def _margin_curves(course: Course, quantity: MarginQuantity, style: Look, top: f
     return lines + dots
 
 
-def over_time_nodes(histories: Sequence[Course], report: StabilityStudy) -> list[Node]:
+def over_time_nodes(histories: Sequence[MarginHistory], report: StabilityStudy) -> list[Node]:
     """Return figures of the margins over the time of flight, and the operating points at which they were studied."""
     studied = {loop.point for history in histories for loops in history.loops for loop in loops}
     points = sorted((point for point in report.points if point.name in studied), key=lambda point: point.time)
@@ -187,11 +187,11 @@ def over_time_nodes(histories: Sequence[Course], report: StabilityStudy) -> list
     ]  # fmt: skip
 
 
-def _names(course: Course) -> str:
-    return together([loops[0] for loops in course.loops])
+def _names(course: MarginHistory) -> str:
+    return combine_loop_names([loops[0] for loops in course.loops])
 
 
-def _figure(histories: Sequence[Course], quantity: MarginQuantity, name: str) -> Figure:
+def _figure(histories: Sequence[MarginHistory], quantity: MarginQuantity, name: str) -> Figure:
     minimum = min(size for history in histories for size in history.sizes[quantity].tolist())
     loops = sum(len(history.loops) for history in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "

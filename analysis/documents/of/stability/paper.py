@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ...pictures import Figure
-from .shared import Shared
+from .shared import SharedFigures
 
 FEW = 3  # loops with separate figures up to which everything is printed
 MOST = 40  # figures of the others
@@ -34,13 +34,13 @@ class Paper:
             "their own. The screen has the other figures and tables."
         )
 
-    def mark(self, figures: Sequence[Figure]) -> list[Figure]:
+    def mark_printed(self, figures: Sequence[Figure]) -> list[Figure]:
         """Return figures marked as printed or not printed."""
         return [replace(figure, is_printed=self.kinds is None or kind_of(figure) in self.kinds) for figure in figures]
 
-    def prints(self, part: str, shared: Shared) -> bool:
+    def is_table_printed(self, part: str, shared: SharedFigures) -> bool:
         """Return True if the table of a part is printed."""
-        return draws(shared) and (self.kinds is None or part in ("classical", "robust"))
+        return has_separate_figures(shared) and (self.kinds is None or part in ("classical", "robust"))
 
 
 def kind_of(figure: Figure) -> str:
@@ -48,14 +48,14 @@ def kind_of(figure: Figure) -> str:
     return figure.label.partition(":")[0]
 
 
-def draws(shared: Shared) -> bool:
+def has_separate_figures(shared: SharedFigures) -> bool:
     """Return True if a loop has separate figures instead of references to those of another loop."""
     return FIRST in [kind_of(figure) for figures in shared.figures.values() for figure in figures]
 
 
-def paper_of(shared: Sequence[Shared]) -> Paper:
+def paper_of(shared: Sequence[SharedFigures]) -> Paper:
     """Return the selection for loops: everything for up to `FEW`, else kinds of figures up to a total number."""
-    if sum(map(draws, shared)) <= FEW:
+    if sum(map(has_separate_figures, shared)) <= FEW:
         return Paper(None)
     labels = [kind_of(figure) for one in shared for figures in one.figures.values() for figure in figures]
     kinds: list[str] = []

@@ -134,7 +134,7 @@ def robust(loop: LoopReport) -> Part:
     return Part("robust", "Robust", Table(["quantity", *numbers("value", "at rad/s")], rows), note)
 
 
-def upper(modes: tuple[Mode, ...]) -> list[Mode]:
+def drop_conjugates(modes: tuple[Mode, ...]) -> list[Mode]:
     """Return modes without the lower pole of conjugate pairs."""
     return [
         mode
@@ -154,7 +154,7 @@ def modes(loop: LoopReport) -> Part:
             numeral(mode.controllability, digits=2),
             numeral(mode.observability, digits=2),
         )
-        for mode in upper(loop.modes)
+        for mode in drop_conjugates(loop.modes)
     ]
     sizes, shares = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s"), ("controllability", "observability")
     note = "A conjugate pair is one row, with ±."

@@ -32,7 +32,7 @@ class FigureContent:
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharedFigures:
     """The figures shown with a loop, and the labels of those shown with another loop, by its index."""
 
     figures: ByPart
@@ -99,14 +99,14 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
     return np.clip((numbers - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
 
 
-def alike(one: FigureContent, other: FigureContent) -> bool:
+def are_indistinguishable(one: FigureContent, other: FigureContent) -> bool:
     """Return True if two figures are indistinguishable."""
     if one.strokes != other.strokes or one.points.size != other.points.size:
         return False
     return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)
 
 
-def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared]:
+def share_figures(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[SharedFigures]:
     """Return the figures to show with each loop: each figure of the loops with the first loop that has it."""
     distinct: dict[str, list[_Distinct]] = {}
     retained: list[dict[str, list[_Distinct]]] = []
@@ -116,7 +116,9 @@ def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared
         for key, members in parts.items():
             for figure in members:
                 picture = picture_of(figure)
-                same = next((one for one in distinct.get(figure.label, []) if alike(one.picture, picture)), None)
+                same = next(
+                    (one for one in distinct.get(figure.label, []) if are_indistinguishable(one.picture, picture)), None
+                )
                 if same is None:
                     one = _Distinct(figure, picture, [index])
                     distinct.setdefault(figure.label, []).append(one)
@@ -125,7 +127,7 @@ def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared
                     same.loops.append(index)
                     elsewhere[index].setdefault(same.loops[0], []).append(figure.label)
     return [
-        Shared({key: [_titled(one, loops) for one in members] for key, members in parts.items()}, away)
+        SharedFigures({key: [_titled(one, loops) for one in members] for key, members in parts.items()}, away)
         for parts, away in zip(retained, elsewhere, strict=True)
     ]
 
@@ -134,11 +136,11 @@ def _titled(one: _Distinct, loops: Sequence[LoopReport]) -> Figure:
     """Return a figure whose label names its loops if there are several."""
     if len(one.loops) == 1:
         return one.figure
-    names = together([loops[index] for index in one.loops])
+    names = combine_loop_names([loops[index] for index in one.loops])
     return replace(one.figure, label=f"{one.figure.label}: {names}")
 
 
-def together(loops: Sequence[LoopReport]) -> str:
+def combine_loop_names(loops: Sequence[LoopReport]) -> str:
     """Return the names of loops, with elements of a vector combined, and with operating points if these differ."""
     points = len({loop.point for loop in loops}) > 1
     stems: dict[tuple[str, str], list[str]] = {}

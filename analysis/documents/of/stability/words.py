@@ -15,7 +15,7 @@ from ....stability.loops.margin_values import UNSTABLE, LoopMargins
 from ....stability.loops.readings import decibel_size, decibels, degree_size
 from ....stability.results.report import JointReport, LoopReport, StabilityStudy
 from ....stability.results.requirement import MarginRequirement, MarginVerdict
-from ...cell import Cell, Displayed, Head, Inline, Judged, Link, Phrase, Quantity, Rich, Strong
+from ...cell import Cell, DisplayedNumber, Head, Inline, Link, Phrase, Quantity, Rich, Strong, VerdictCell
 from ...common.quantities import MINUS, NONE, display_unit, number
 from ...model import Fold, Node, Table
 
@@ -56,10 +56,10 @@ def fold_long(table: Table, rows: str) -> Node:
     return Fold(f"All {len(table.rows)} {rows}", [table]) if len(table.rows) > LONG else table
 
 
-def _display(exact: float | complex, displayed: float, digits: int, infinite: str) -> Displayed | str:
+def _display(exact: float | complex, displayed: float, digits: int, infinite: str) -> DisplayedNumber | str:
     if math.isinf(displayed):
         return infinite
-    return NONE if math.isnan(displayed) else Displayed(number(displayed, digits), exact)
+    return NONE if math.isnan(displayed) else DisplayedNumber(number(displayed, digits), exact)
 
 
 def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Quantity | str:
@@ -108,7 +108,7 @@ def complex_number(value: complex, digits: int = 4) -> Inline:
     displayed = number(value.real, digits)
     if value.imag:
         displayed += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
-    return Displayed(displayed, value)
+    return DisplayedNumber(displayed, value)
 
 
 def left_out(part: str, reason: str, loop: LoopReport) -> Rich:
@@ -164,9 +164,9 @@ def samples(delay: float, period: float) -> Quantity | str:
     return numeral(float(delay) / period, infinite=NO_CROSSING)
 
 
-def verdict(word: MarginVerdict) -> Judged:
+def verdict(word: MarginVerdict) -> VerdictCell:
     """Return a verdict with its symbol and colour."""
-    return Judged(f"{SIGNS[word]} {word}", GRADES[word])
+    return VerdictCell(f"{SIGNS[word]} {word}", GRADES[word])
 
 
 def text_of_closed_loop(stable: bool | None) -> str:

@@ -56,12 +56,12 @@ def limit_state_chart(study: RareOutcome) -> Chart:
         top = np.full(int((~finite).sum()), high - 0.02 * (high - low))
         triangle = marker("^", 5.0, VERMILION)
         curves.append(marks(numbers[~finite], top, triangle, name="failure without a finite limit state"))
-    areas, rules, notes = [], [shapes.level(0.0, INK, 1.0, DASHED)], []
+    areas, rules, notes = [], [shapes.horizontal_line(0.0, INK, 1.0, DASHED)], []
     for span in level_spans(study):
         if span.following is not None:
             ends, heights = np.array([span.first, span.last]), np.full(2, factor * span.following)
             areas.append(shapes.outline(ends, heights, BLUE, 1.6))
-        rules.append(shapes.instant(span.last + 0.5, FAINT, 0.7, DOTTED))
+        rules.append(shapes.vertical_line(span.last + 0.5, FAINT, 0.7, DOTTED))
         notes.append(number_above(f"{span.number}", 0.5 * (span.first + span.last)))
     return Chart(
         NO_BOX,
@@ -129,7 +129,7 @@ def exceedance_chart(study: RareOutcome) -> Chart:
         fine_axis((0.5 * smallest, 1.5), 7),
         title="probability of more",
         curves=[empirical, replace(levels, marker=marker("o", 4.0, BLUE)), interval],
-        rules=[shapes.instant(0.0, INK, 1.0, DASHED)],
+        rules=[shapes.vertical_line(0.0, INK, 1.0, DASHED)],
     )
 
 
@@ -212,6 +212,6 @@ def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Cha
         fine_axis((left, 2.0 * max(positive)), label=f"probability of failure, {PERCENT} interval"),
         lane_axis([""] * len(rows), (len(rows) - 0.4, -0.8)),
         curves=curves,
-        rules=[] if probability is None else [shapes.instant(probability, INK, 1.0, DASHED)],
+        rules=[] if probability is None else [shapes.vertical_line(probability, INK, 1.0, DASHED)],
         notes=notes,
     )

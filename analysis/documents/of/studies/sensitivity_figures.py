@@ -12,7 +12,7 @@ import numpy as np
 from ....studies.sensitivity import SensitivityOutcome
 from ...chart.axes import lane_axis, linear_axis
 from ...chart.lines import line
-from ...chart.marks import instant, rectangle
+from ...chart.marks import rectangle, vertical_line
 from ...chart.symbols import marker
 from ...common.colours import BLUE, INK, SKY
 from ...interactive.charts import NO_BOX, Chart
@@ -91,5 +91,5 @@ def index_chart(bars: Sequence[IndexBar]) -> Chart:
         title="above: total; below: first order",
         areas=areas,
         curves=curves,
-        rules=[instant(0.0, INK, 0.8)],
+        rules=[vertical_line(0.0, INK, 0.8)],
     )

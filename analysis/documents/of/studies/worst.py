@@ -89,19 +89,19 @@ def _verdict(study: WorstOutcome) -> Verdict:
     name: Rich = [study.badness.text if study.badness.expression is None else Code(study.badness.text)]
     flown: Rich = []
     if realisations is not None:
-        extreme = [] if largest is None else ["; worst of them ", _sized(study, study.as_json(largest))]
+        extreme = [] if largest is None else ["; worst of them ", _objective_cell(study, study.as_json(largest))]
         flown = [f" ({study.flown_text}", *extreme, ")"]
     simulations = "simulations" if objective.rising else "studies"
     return Verdict(
         [
-            *name, ": worst " if objective.rising else ": least ", _sized(study, study.worst["value"]), *flown,
+            *name, ": worst " if objective.rising else ": least ", _objective_cell(study, study.worst["value"]), *flown,
             f", of {objective.values.size} points in {study.flights} {simulations}{study.conditions}",
         ],
         [
-            *_fresh(study),
+            *_noise_effect(study),
             *([Text(f"failed: {study.reason}")] if study.reason else []),
             Text([
-                f"worst of {study.random_trials} random trials: ", _sized(study, random["value"]),
+                f"worst of {study.random_trials} random trials: ", _objective_cell(study, random["value"]),
                 f"{f' ({realisations.text})' if realisations else ''}{outside}{study.conditions}",
             ]),
             Text([
@@ -113,7 +113,7 @@ def _verdict(study: WorstOutcome) -> Verdict:
     )  # fmt: skip
 
 
-def _sized(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
+def _objective_cell(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
     """Return a value of the objective as a cell; without one the text that the simulation failed."""
     return _cell(size, study.unit, is_bare=is_bare)
 
@@ -124,16 +124,18 @@ def _cell(size: float | str | None, unit: str | None, *, is_bare: bool = True) -
     return Quantity(float(size), unit, DIGITS, is_bare)
 
 
-def _fresh(study: WorstOutcome) -> list[Node]:
+def _noise_effect(study: WorstOutcome) -> list[Node]:
     """Return the effect of new noise on the worst case; none if noise is not random."""
     if study.fresh is None or study.over is None:
         return []
     fresh = study.fresh.document(study.as_json)
-    quantile = [f", {study.over.name} ", _sized(study, fresh["at_quantile"])] if fresh["quantile"] < 1.0 else []
+    quantile = (
+        [f", {study.over.name} ", _objective_cell(study, fresh["at_quantile"])] if fresh["quantile"] < 1.0 else []
+    )
     return [
         Text([
             f"the same point under {fresh['realisations']} fresh noise realisations: worst ",
-            _sized(study, fresh["worst"]), *quantile, study.conditions,
+            _objective_cell(study, fresh["worst"]), *quantile, study.conditions,
         ]),
         Note("The search has not used these; its own number is biased towards worse, since it chose the point."),
     ]  # fmt: skip

@@ -13,7 +13,7 @@ from ....studies.worst.outcome import WorstOutcome
 from ...cell import LegendEntry
 from ...chart.axes import lane_axis, linear_axis, ticked_axis
 from ...chart.lines import line
-from ...chart.marks import instant, outline, rectangle
+from ...chart.marks import outline, rectangle, vertical_line
 from ...chart.symbols import mark, marker, marks
 from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
@@ -55,7 +55,7 @@ def search_chart(study: WorstOutcome) -> Chart:
     rules, notes, begin = [], [], 0
     for index, phase in enumerate(study.phases):
         end = begin + phase.evaluations
-        rules.append(instant(end + 0.5, FAINT, 0.7, DOTTED))
+        rules.append(vertical_line(end + 0.5, FAINT, 0.7, DOTTED))
         notes.append(number_above(str(index + 1), 0.5 * (begin + end + 1)))
         begin = end
     return Chart(
@@ -82,7 +82,7 @@ class MarkedAbscissa(NamedTuple):
 
 
 def _rules(levels: Sequence[MarkedAbscissa]) -> list[Rule]:
-    return [instant(each.at, each.colour, 1.7, each.dashes) for each in levels if math.isfinite(each.at)]
+    return [vertical_line(each.at, each.colour, 1.7, each.dashes) for each in levels if math.isfinite(each.at)]
 
 
 def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:

@@ -29,7 +29,7 @@ from perilune.analysis.documents.of.comparison.flights.recorded import (
     read_flights,
     trials_with_traces,
 )
-from perilune.analysis.documents.of.comparison.flights.trajectories import bundle_of
+from perilune.analysis.documents.of.comparison.flights.trajectories import collect_paths
 from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
@@ -80,7 +80,7 @@ def test_altitude_takes_the_place_of_height(tmp_path):
     batch = read_batch(tmp_path / "out")
     assert "ship.position[3]" not in [quantity.label for quantity in quantities(batch.document)]
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0], names_of_record(batch.document)))
+    bundle = collect_paths(contender, read_flights(contender, [0], names_of_record(batch.document)))
     assert bundle.height == "ship.altitude"
     assert bundle.paths[0].height[0] == pytest.approx(505.0)
     # without a final altitude a path ends with its last sample, and none is lost
@@ -89,7 +89,7 @@ def test_altitude_takes_the_place_of_height(tmp_path):
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
     flights = read_flights(contender, range(12), names_of_record(batch.document))
-    paths = bundle_of(contender, flights).paths
+    paths = collect_paths(contender, flights).paths
     assert [path.plan.shape[1] for path in paths] == [flight.time.size for flight in flights]
 
 
@@ -115,7 +115,7 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     result.write(tmp_path / "out")
     batch = read_batch(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0, 1], names_of_record(batch.document)))
+    bundle = collect_paths(contender, read_flights(contender, [0, 1], names_of_record(batch.document)))
     assert bundle.radius == pytest.approx(radius, rel=1e-9)
     assert bundle.over_ground
     path = bundle.paths[1]
@@ -225,7 +225,7 @@ def test_the_same_trials_are_shown_of_every_variant(batch, comparison):
 
 def test_paths_run_along_the_line_to_the_target(comparison, flights):
     contender = comparison.contenders["gamma"]
-    bundle = bundle_of(contender, flights["gamma"])
+    bundle = collect_paths(contender, flights["gamma"])
     assert bundle.height == "ship.position[3]"
     np.testing.assert_array_equal(bundle.target, TARGET[:2])
     for flight, path in zip(flights["gamma"], bundle.paths, strict=True):
@@ -245,7 +245,7 @@ def test_the_end_is_added_to_a_sampled_path(tmp_path):
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["beta"]
     flights = read_flights(contender, [0, 1, 2], SIGNALS)
-    for flight, path in zip(flights, bundle_of(contender, flights).paths, strict=True):
+    for flight, path in zip(flights, collect_paths(contender, flights).paths, strict=True):
         assert path.plan.shape[1] == flight.time.size + 1
         assert path.plan[0, -1] == contender.trials.final["ship.position[1]"][flight.trial]
         assert path.height[-1] == contender.trials.final["ship.position[3]"][flight.trial]

@@ -9,9 +9,9 @@ import numpy as np
 
 from ....chart.axes import linear_axis
 from ....chart.lines import line
-from ....chart.marks import band_areas, level, note_above
+from ....chart.marks import band_areas, horizontal_line, note_above
 from ....common.colours import FAINT, INK, Look
-from ....common.panels import far
+from ....common.panels import choose_length_unit
 from ....common.quantities import display_factor, display_unit, number
 from ....interactive.charts import NO_BOX, Area, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
@@ -46,7 +46,7 @@ class QuantityFrame:
             linear_axis((self.factor * (self.low - margin), self.factor * (self.high + margin)), 5, integer=self.held),
             curves=curves,
             areas=areas,
-            rules=[level(self.factor * at, INK, 0.9, FAILED_DASHES) for at in self.expected],
+            rules=[horizontal_line(self.factor * at, INK, 0.9, FAILED_DASHES) for at in self.expected],
             notes=[note_above(note)] if note else [],
             title=self.unit,
         )
@@ -58,7 +58,7 @@ def frame_of(quantity: FlightQuantity, bands: Mapping[str, Bands]) -> QuantityFr
     everything = np.concatenate([band.finite_values() for band in bands.values()] + [np.asarray(expected)])
     factor, unit = display_factor(quantity.unit), display_unit(quantity.unit)
     if quantity.unit == "m":
-        factor, unit = far(everything)
+        factor, unit = choose_length_unit(everything)
     low, high = float(everything.min()), float(everything.max())
     if expected:
         room = REACH * (expected[-1] - expected[0])

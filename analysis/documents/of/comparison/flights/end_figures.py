@@ -18,7 +18,7 @@ from ....chart.marks import note_above
 from ....chart.panel import POINTS
 from ....chart.symbols import arrow, mark, marker, marks
 from ....common.colours import FAINT, INK, Look
-from ....common.panels import PANEL_WIDTH, far
+from ....common.panels import PANEL_WIDTH, choose_length_unit
 from ....common.quantities import number
 from ....interactive.charts import NO_BOX, Chart, Curve
 from ....pictures import Figure
@@ -74,7 +74,7 @@ def _figure(label: str, ends: Ends, style: Look, extent: float, name: str) -> Fi
 def _scale(variable: str, extent: float) -> tuple[float, str]:
     """Return factor and unit to display final errors up to ``extent``."""
     unit = UNITS[variable]
-    return far(np.array([extent])) if unit == "m" else (1.0, unit)
+    return choose_length_unit(np.array([extent])) if unit == "m" else (1.0, unit)
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:

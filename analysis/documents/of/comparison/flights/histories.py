@@ -12,7 +12,7 @@ from .....campaigns.compare.comparison import CampaignComparison
 from ...campaign.recorded_names import names_of_record
 from .bands import Bands, bands_of
 from .recorded import ComparedFlight, FlightQuantity, quantities, read_flights, trials_with_traces
-from .trajectories import VariantPaths, bundle_of
+from .trajectories import VariantPaths, collect_paths
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class FlightHistories:
     def bundles(self) -> dict[str, VariantPaths]:
         """The paths of the variants that have positions."""
         bundles = {
-            label: bundle_of(self.comparison.contenders[label], flights) for label, flights in self.by_label.items()
+            label: collect_paths(self.comparison.contenders[label], flights) for label, flights in self.by_label.items()
         }
         return {label: bundle for label, bundle in bundles.items() if bundle is not None}
 

@@ -60,7 +60,7 @@ class VariantPaths:
         return self.height.rpartition(".")[2] == "altitude"
 
 
-def bundle_of(contender: Contender, flights: Sequence[ComparedFlight]) -> VariantPaths | None:
+def collect_paths(contender: Contender, flights: Sequence[ComparedFlight]) -> VariantPaths | None:
     """Return the paths of a variant's simulations, extended to recorded final values; None without paths."""
     document = contender.stored.document
     names = names_of_record(document)

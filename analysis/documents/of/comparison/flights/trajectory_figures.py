@@ -11,11 +11,11 @@ import numpy as np
 from ....chart.axes import linear_axis
 from ....chart.equal import Ends, to_scale
 from ....chart.lines import line
-from ....chart.marks import across, instant, level, note_above
+from ....chart.marks import horizontal_band, horizontal_line, note_above, vertical_line
 from ....chart.panel import POINTS
 from ....chart.symbols import mark
 from ....common.colours import GRID, INK, Look
-from ....common.panels import PANEL_HEIGHT, PANEL_WIDTH, far
+from ....common.panels import PANEL_HEIGHT, PANEL_WIDTH, choose_length_unit
 from ....interactive.charts import NO_BOX, Axis, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
 from ....pictures import Figure
@@ -33,8 +33,8 @@ def side_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]
     has_ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
     height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if has_ground else []))
-    x_scale, x_unit = far(along)
-    y_scale, y_unit = far(height)
+    x_scale, x_unit = choose_length_unit(along)
+    y_scale, y_unit = choose_length_unit(height)
     x_axis = linear_axis(_limits(x_scale * along), 5, label=f"downrange from the target, {x_unit}")
     y_axis = linear_axis(_limits(y_scale * height), 5)
     figures = []
@@ -58,8 +58,8 @@ def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_
         x,
         y,
         curves=[_line(path, colour) for path in paths],
-        areas=[across(min(y.ends[0], 0.0), 0.0, GRID, 1.0)] if has_ground else [],
-        rules=[instant(0.0, INK, 0.8, (1.0, 2.0)), *([level(0.0, INK, 0.8)] if has_ground else [])],
+        areas=[horizontal_band(min(y.ends[0], 0.0), 0.0, GRID, 1.0)] if has_ground else [],
+        rules=[vertical_line(0.0, INK, 0.8, (1.0, 2.0)), *([horizontal_line(0.0, INK, 0.8)] if has_ground else [])],
     )
 
 
@@ -68,8 +68,8 @@ def plan_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]
     plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
     is_to_scale = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
-    x_scale, x_unit = far(np.concatenate([x, y]) if is_to_scale else x)
-    y_scale, y_unit = (x_scale, x_unit) if is_to_scale else far(y)
+    x_scale, x_unit = choose_length_unit(np.concatenate([x, y]) if is_to_scale else x)
+    y_scale, y_unit = (x_scale, x_unit) if is_to_scale else choose_length_unit(y)
     x_ends, y_ends = _limits(x_scale * x), _limits(y_scale * y)
     axes = next(iter(bundles.values())).axes
     title = f"{axes[1]}, {y_unit}"

@@ -9,7 +9,7 @@ import numpy as np
 from .....runtime.flight.results import FlightResult
 from ....cell import Inline, Quantity
 from ....chart.axes import linear_axis, logarithmic_axis
-from ....chart.marks import across, during, instant, level
+from ....chart.marks import horizontal_band, horizontal_line, vertical_band, vertical_line
 from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import FAINT, GREEN, INK
@@ -65,11 +65,11 @@ def band_section(band: BandFigure, result: FlightResult, name: str) -> Group:
         for index, (element, line) in enumerate(zip(band.line_names, band.values(result), strict=True))
     ]
     limits = [limit for limit in (low, high) if limit is not None]
-    whole = _ends(displayed(lines), limits)
-    green = across(whole[0] if low is None else low, whole[1] if high is None else high, GREEN, 0.16)
-    grey = [during(begin, end, FAINT, 0.35) for begin, end in _spans(band, result)]
-    rules = [level(limit, FAINT, 0.8) for limit in limits]
-    rules += [instant(float(time[row]), INK, 0.9, (1.0, 2.0))] if row else []
+    whole = _find_ends(displayed(lines), limits)
+    green = horizontal_band(whole[0] if low is None else low, whole[1] if high is None else high, GREEN, 0.16)
+    grey = [vertical_band(begin, end, FAINT, 0.35) for begin, end in _spans(band, result)]
+    rules = [horizontal_line(limit, FAINT, 0.8) for limit in limits]
+    rules += [vertical_line(float(time[row]), INK, 0.9, (1.0, 2.0))] if row else []
 
     def chart(ends: tuple[float, float]) -> Chart:
         return time_chart(time, lines, ends, areas=[green, *grey], rules=rules)
@@ -93,7 +93,7 @@ def band_section(band: BandFigure, result: FlightResult, name: str) -> Group:
     )
 
 
-def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
+def _find_ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
     """Return the ends of the ordinate, which enclose the values and any limit beyond them."""
     ends = axis_ends(values)
     for count, limit in enumerate(limits, 1):
@@ -134,9 +134,9 @@ def against_chart(band: BandFigure, result: FlightResult, other: Signal) -> Char
     factor = display_factor(band.signal.unit_name)
     low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
     limits = [limit for limit in (low, high) if limit is not None]
-    ends = _ends(displayed(lines), limits)
-    green = across(ends[0] if low is None else low, ends[1] if high is None else high, GREEN, 0.16)
-    rules = [level(limit, FAINT, 0.8) for limit in limits]
+    ends = _find_ends(displayed(lines), limits)
+    green = horizontal_band(ends[0] if low is None else low, ends[1] if high is None else high, GREEN, 0.16)
+    rules = [horizontal_line(limit, FAINT, 0.8) for limit in limits]
     return Chart(NO_BOX, x, linear_axis(ends, 5), curves=lines, areas=[green], rules=rules)
 
 

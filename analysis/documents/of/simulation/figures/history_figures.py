@@ -9,8 +9,8 @@ from scipy.special import ndtr
 
 from ......common.percent import short_percent
 from .....runtime.flight.results import FlightResult
-from ....cell import Displayed, Inline, Quantity, Rich
-from ....chart.marks import band_areas, level
+from ....cell import DisplayedNumber, Inline, Quantity, Rich
+from ....chart.marks import band_areas, horizontal_line
 from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import FAINT, ORANGE
@@ -68,7 +68,7 @@ def _figures(
     ]
 
     def chart(ends: tuple[float, float]) -> Chart:
-        return time_chart(time, [line], ends, areas=areas, rules=[level(0.0, FAINT, 0.8)])
+        return time_chart(time, [line], ends, areas=areas, rules=[horizontal_line(0.0, FAINT, 0.8)])
 
     everything = np.concatenate([displayed([line]), [0.0], *halves, *(-half for half in halves)])
     whole = chart(axis_ends(everything))
@@ -122,8 +122,8 @@ def _findings(
     ]
 
 
-def _percent(fraction: float) -> Displayed:
-    return Displayed(short_percent(fraction, 1), fraction)
+def _percent(fraction: float) -> DisplayedNumber:
+    return DisplayedNumber(short_percent(fraction, 1), fraction)
 
 
 def _normal(times: float) -> float:
@@ -157,7 +157,7 @@ def curve_section(curve: CurveFigure, result: FlightResult, name: str) -> Group:
         ]
         limits = [display_factor(unit_name) * limit for limit in (curve.low, curve.high) if limit is not None]
         ends = axis_ends(np.concatenate([displayed(lines), limits]))
-        rules = [level(limit, FAINT, 0.9, (5.0, 3.0)) for limit in limits]
+        rules = [horizontal_line(limit, FAINT, 0.9, (5.0, 3.0)) for limit in limits]
         return time_chart(time, lines, ends, rules=rules, intervals=intervals)
 
     notes = [_curve_caption(curve, unit), *curve.notes]

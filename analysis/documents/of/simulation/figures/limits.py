@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any
 
 from .....runtime.flight.results import Flight
-from ....cell import Cell, Grade, Judged, Phrase, Quantity
+from ....cell import Cell, Grade, Phrase, Quantity, VerdictCell
 from ....common.quantities import NONE, display_unit
 from ....figures.declared import FigureDeclaration, Limit, LimitsFigure, UnavailableFigure
 from ....render.words import cell_text
@@ -96,7 +96,7 @@ def limit_entries(limits: LimitsFigure, result: Flight) -> list[dict[str, Any]]:
 
 def _row(limit: Limit, verdict: LimitVerdict, result: Flight, *, is_tightest: bool) -> tuple[Cell, ...]:
     unit = limit.signal.unit_name
-    judged = Judged(LABELS[verdict], GRADES[verdict])
+    judged = VerdictCell(LABELS[verdict], GRADES[verdict])
     return (
         limit.name,
         NONE if verdict is LimitVerdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),

@@ -12,13 +12,13 @@ from .....runtime.flight.results import FlightResult
 from ....cell import Inline, LegendEntry
 from ....chart.axes import linear_axis
 from ....chart.equal import Ends, to_scale
-from ....chart.marks import level
+from ....chart.marks import horizontal_line
 from ....chart.panel import POINTS
 from ....chart.quantity import quantity_curve
 from ....chart.symbols import marker, marks
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, INK, look
-from ....common.panels import HALF_WIDTH, far
+from ....common.panels import HALF_WIDTH, choose_length_unit
 from ....common.quantities import display_unit, label_with_unit
 from ....figures.declared import Arc, PathFigure, Signal
 from ....interactive.charts import NO_BOX, Chart, Curve, Marker
@@ -93,7 +93,7 @@ def path_chart(
     for index, (point, positions) in enumerate(zip(path.points, others, strict=True), 1):
         curves += _point_curves(point.name, positions, index)
     x, y = linear_axis(x_ends, intervals, label=label), linear_axis(y_ends, Y_INTERVALS)
-    rules = [level(0.0, INK, 0.8)] if _over_ground(path) else []
+    rules = [horizontal_line(0.0, INK, 0.8)] if _over_ground(path) else []
     return Chart(NO_BOX, x, y, curves=curves, rules=rules)
 
 
@@ -119,9 +119,11 @@ def _scales(path: PathFigure, x: np.ndarray, y: np.ndarray) -> tuple[float, floa
     """Return the display factors of both axes: km for long lengths in m; equal for equal scales."""
     metres = [signal.unit_name == "m" for signal in (path.x, path.y)]
     if path.equal and all(metres):
-        factor, _ = far(np.concatenate([x, y]))
+        factor, _ = choose_length_unit(np.concatenate([x, y]))
         return factor, factor
-    first, second = (far(values)[0] if is_length else 1.0 for values, is_length in zip((x, y), metres, strict=True))
+    first, second = (
+        choose_length_unit(values)[0] if is_length else 1.0 for values, is_length in zip((x, y), metres, strict=True)
+    )
     return first, second
 
 

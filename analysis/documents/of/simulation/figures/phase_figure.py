@@ -11,7 +11,7 @@ import numpy as np
 from .....runtime.flight.results import Flight, FlightResult
 from ....cell import Cell, Inline, Quantity, Rich
 from ....chart.axes import lane_axis, linear_axis
-from ....chart.marks import SQUARE, instant
+from ....chart.marks import SQUARE, vertical_line
 from ....common.colours import BLUE, INK, VERMILION
 from ....common.quantities import display_unit, label_with_unit, number
 from ....figures.declared import BoundValues, BudgetFigure, BudgetItem, PhasesFigure, SequencerPhase
@@ -155,7 +155,7 @@ def phase_chart(
         linear_axis((begin, end if end > begin else begin + 1.0), intervals, label="time, s"),
         lane_axis(lanes),
         areas=[*bars, Area(strokes[0], strokes[1], (False, False), BLUE.lower(), 1.0, EDGE)],
-        rules=[instant(time, VERMILION, 1.1, (4.0, 2.0)) for time in by_time],
+        rules=[vertical_line(time, VERMILION, 1.1, (4.0, 2.0)) for time in by_time],
         notes=[*notes, *(_status(time, ", ".join(numbers)) for time, numbers in by_time.items())],
     )
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from .....runtime.flight.results import FlightResult
 from ....cell import Inline, Quantity
-from ....chart.marks import level
+from ....chart.marks import horizontal_line
 from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, FAINT, VERMILION
@@ -68,7 +68,7 @@ def pulse_charts(pulses: PulsesFigure, result: FlightResult, lengths: np.ndarray
         lines = [_line(time, remainder)] if np.any(remainder) else []
         lines += [_bars(time, row, 1.0, BLUE), _bars(time, row, -1.0, VERMILION)]
         areas = [each for each in lines if each.x.size]
-        rules = [level(0.0, FAINT, THIN)]
+        rules = [horizontal_line(0.0, FAINT, THIN)]
         chart = time_chart(time, [], (-reach, reach), areas=areas, rules=rules, y_intervals=3)
         charts.append((f"{label or pulses.lengths.label}, s", chart))
     if pulses.total is not None:

@@ -10,7 +10,7 @@ from .....stability.loops.readings import Classical, decibels
 from .....stability.results.report import LoopReport
 from ....chart.axes import linear_axis
 from ....chart.lines import line
-from ....chart.marks import instant, level
+from ....chart.marks import horizontal_line, vertical_line
 from ....chart.symbols import mark, marks
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, FAINT, INK, VERMILION
@@ -74,7 +74,7 @@ def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
         at, height = _within(abscissa, crossing.frequency), -float(decibels(crossing.value))
         curves.append(mark(at, height, gain_mark(is_decisive=is_decisive), beyond=is_decisive))
     ends = _gain_ends(in_db(curve.value), -float(decibels(gain.value)) if gain is not None else 0.0)
-    rules, title = [level(0.0, INK, 0.8), *_crossovers(crossings)], f"gain, dB: {gain_words(loop)}"
+    rules, title = [horizontal_line(0.0, INK, 0.8), *_crossovers(crossings)], f"gain, dB: {gain_words(loop)}"
     ordinate = linear_axis(ends, 5, multiples=GAINS)
     return Chart(NO_BOX, abscissa, ordinate, title=title, curves=curves, rules=rules, notes=notes)
 
@@ -114,14 +114,14 @@ def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
     plotted.append(np.array(levels))
     ordinate = linear_axis(axis_ends(np.concatenate(plotted)), 5, multiples=PHASES)
     title = f"phase, deg: {phase_words(loop)}".rstrip(": ")
-    rules = [*(level(each, INK, 0.8) for each in levels), *_crossovers(crossings)]
+    rules = [*(horizontal_line(each, INK, 0.8) for each in levels), *_crossovers(crossings)]
     return Chart(NO_BOX, abscissa, ordinate, title=title, curves=curves, rules=rules, notes=notes)
 
 
 def _crossovers(crossings: Classical) -> list[Rule]:
     """Return the frequencies of the decisive margins."""
     decisive = [each for each in (crossings.gain_margin, crossings.phase_margin) if each is not None]
-    return [instant(each.frequency, FAINT, 0.7, DOTS) for each in decisive]
+    return [vertical_line(each.frequency, FAINT, 0.7, DOTS) for each in decisive]
 
 
 def _within(axis: Axis, frequency: float) -> float:

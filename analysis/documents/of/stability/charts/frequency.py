@@ -17,7 +17,7 @@ from .....stability.loops.readings import Classical, FrequencyResponse, decibel_
 from .....stability.results.report import LoopReport
 from ....chart.axes import fine_axis, linear_axis
 from ....chart.lines import line
-from ....chart.marks import level
+from ....chart.marks import horizontal_line
 from ....chart.symbols import mark, marker
 from ....common.colours import BLUE, FAINT, GREEN, INK, VERMILION
 from ....common.quantities import number
@@ -96,10 +96,10 @@ def sensitivity_chart(loop: LoopReport) -> Chart:
         if not loop.margins.unstable and math.isfinite(frequency) and math.isfinite(peak) and peak > 0.0:
             curves.append(mark(frequency, float(decibels(peak)), PEAK))
     top = max(float(np.max(s)), float(np.max(t)))
-    rules = [level(0.0, INK, 0.8)]
+    rules = [horizontal_line(0.0, INK, 0.8)]
     if limit:
         required = -float(decibels(limit))
-        rules.append(level(required, VERMILION, 1.0, REQUIRED))
+        rules.append(horizontal_line(required, VERMILION, 1.0, REQUIRED))
         top = max(top, required)
     abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
     ordinate = linear_axis((-40.0, 1.15 * top + 2.0), 6)

@@ -13,7 +13,7 @@ from .....stability.results.report import LoopReport
 from .....stability.results.responses import Nonlinearity
 from ....chart.axes import linear_axis, ticked_axis
 from ....chart.lines import line
-from ....chart.marks import hatch, instant, level, outline
+from ....chart.marks import hatch, horizontal_line, outline, vertical_line
 from ....chart.symbols import BARB, arrow, mark, marker, marks
 from ....common.colours import BLUE, GREEN, INK, PURPLE, VERMILION
 from ....common.quantities import MINUS, number
@@ -101,7 +101,7 @@ def _complex_plane(curves: Sequence[Curve], left: float, right: float) -> Chart:
         linear_axis((-half, half), 5),
         title="imaginary",
         curves=[*curves, mark(-1.0, 0.0, CRITICAL)],
-        rules=[level(0.0, INK, 0.5), instant(0.0, INK, 0.5)],
+        rules=[horizontal_line(0.0, INK, 0.5), vertical_line(0.0, INK, 0.5)],
     )
 
 

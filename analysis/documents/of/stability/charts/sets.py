@@ -17,7 +17,7 @@ from .....stability.results.responses import Nonlinearity
 from .....stability.results.varied import Dispersion, SweepReport
 from ....chart.axes import fine_axis, linear_axis
 from ....chart.lines import line
-from ....chart.marks import SQUARE, hatch, instant, level, outline, rectangle
+from ....chart.marks import SQUARE, hatch, horizontal_line, outline, rectangle, vertical_line
 from ....chart.symbols import mark, marker
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, GREEN, INK, VERMILION
@@ -39,7 +39,7 @@ def step_chart(loop: LoopReport) -> Chart:
     time, response = loop.step
     abscissa = linear_axis((float(time[0]), float(time[-1])), 5, label="s")
     ends = axis_ends(np.concatenate([response, [0.0, 1.0]]))
-    rules = [level(1.0, INK, 0.9, REQUIRED), level(0.0, INK, 0.5)]
+    rules = [horizontal_line(1.0, INK, 0.9, REQUIRED), horizontal_line(0.0, INK, 0.5)]
     curves, title = [line(time, response, BLUE, steps=True)], "response of T to a unit step"
     return Chart(NO_BOX, abscissa, linear_axis(ends, 6), title=title, curves=curves, rules=rules)
 
@@ -80,7 +80,7 @@ def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float 
         title=title,
         curves=curves,
         areas=bars,
-        rules=[] if limit is None else [instant(limit, VERMILION, 1.4, REQUIRED)],
+        rules=[] if limit is None else [vertical_line(limit, VERMILION, 1.4, REQUIRED)],
     )
 
 
@@ -165,8 +165,8 @@ def _sweep_chart(
     factor = display_factor(sweep.unit)
     finite = np.where(np.isfinite(y), y, np.nan)
     limits = [] if limit is None else [limit, -limit] if float(np.nanmin(y, initial=0.0)) < 0.0 else [limit]
-    rules = [level(each, VERMILION, 1.0, REQUIRED) for each in limits]
-    rules += [instant(factor * crossing.value, INK, 0.9, DOTS) for crossing in sweep.crossings]
+    rules = [horizontal_line(each, VERMILION, 1.0, REQUIRED) for each in limits]
+    rules += [vertical_line(factor * crossing.value, INK, 0.9, DOTS) for crossing in sweep.crossings]
     return Chart(
         NO_BOX,
         _abscissa(factor * sweep.values, label_with_unit(sweep.parameter, sweep.unit)),
@@ -204,5 +204,5 @@ def joint_chart(joint: JointReport) -> Chart:
         linear_axis(ends, 5),
         title=title,
         curves=curves,
-        rules=[level(max(alphas), VERMILION, 1.0, REQUIRED)] if alphas else [],
+        rules=[horizontal_line(max(alphas), VERMILION, 1.0, REQUIRED)] if alphas else [],
     )
