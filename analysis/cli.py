@@ -10,9 +10,9 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ..common.errors import EndedError, ExitStatus, InputError, UnwrittenError, call_by_flags, warn_in_one_line
+from ..common.errors import EndedError, ExitStatus, InputError, UnwrittenError, name_by_flags, warn_in_one_line
 from ..common.machine.os_errors import line_of, reason_of
-from ..common.process import leave, open_closed_streams, steady_streams
+from ..common.process import exit_process, guard_streams, open_closed_streams
 from ..common.targets import check_encoding
 from .options.declaration import Verb
 from .options.parsing import Completer, add_verb, flags_of, read_parsed
@@ -27,7 +27,7 @@ USAGE = "perilune [--help] [--version] VERB ..."
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Execute one command and return its exit status, which is unaffected by a reader that closes the pipe early."""
-    with steady_streams() as output:
+    with guard_streams() as output:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
         if output.is_cut and output.error is not None:
@@ -57,13 +57,13 @@ def _carry_out(given: Sequence[str]) -> int:
             print(f"perilune: {line}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
-        print(f"perilune: {call_by_flags(str(error), flags)}", file=sys.stderr)
+        print(f"perilune: {name_by_flags(str(error), flags)}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except EndedError as ended:
-        print(f"perilune: {call_by_flags(str(ended), flags)}", file=sys.stderr)
+        print(f"perilune: {name_by_flags(str(ended), flags)}", file=sys.stderr)
         return ended.status
     except KeyboardInterrupt as interrupt:
-        hint = call_by_flags("".join(getattr(interrupt, "__notes__", [])), flags)
+        hint = name_by_flags("".join(getattr(interrupt, "__notes__", [])), flags)
         print(f"perilune: interrupted{hint}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
@@ -163,4 +163,4 @@ def run() -> NoReturn:
         status = main()
     except SystemExit as stop:  # argparse's --help and errors
         status = stop.code if isinstance(stop.code, int) else 1
-    leave(status)
+    exit_process(status)

@@ -43,7 +43,7 @@ class InputError(ValueError):
 
     def line(self, flags: Mapping[str, str]) -> str:
         """Return the error in one line, each parameter with its name in ``flags``, or its own name."""
-        return call_by_flags(self.text, flags)
+        return name_by_flags(self.text, flags)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
         """Return the lines that the command line prints: one, or for `SeveralProblemsError` one per problem."""
@@ -79,10 +79,10 @@ class SeveralProblemsError(InputError):
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
         """Return a line for each problem."""
-        return [call_by_flags(text, flags) for text in self.texts]
+        return [name_by_flags(text, flags) for text in self.texts]
 
 
-def call_by_flags(text: str, flags: Mapping[str, str]) -> str:
+def name_by_flags(text: str, flags: Mapping[str, str]) -> str:
     """Return a message with each parameter replaced by its name in ``flags``, or by its own name."""
     return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 

@@ -64,7 +64,7 @@ class Stream:
 
 
 @contextmanager
-def steady_streams() -> Iterator[Stream]:
+def guard_streams() -> Iterator[Stream]:
     """Replace standard output and error by streams that do not raise; yield standard output, flushed at the end."""
     output, errors = Stream(sys.stdout), Stream(sys.stderr)
     with redirect_stdout(output), redirect_stderr(errors):  # type: ignore[type-var]
@@ -89,12 +89,12 @@ _farewells: list[Callable[[], object]] = []
 
 
 def at_end(farewell: Callable[[], object]) -> None:
-    """Register a function to call when this process ends, also by `leave`; the last one is called first."""
+    """Register a function to call when this process ends, also by `exit_process`; the last one is called first."""
     _farewells.append(farewell)
     atexit.register(farewell)
 
 
-def leave(status: int) -> NoReturn:
+def exit_process(status: int) -> NoReturn:
     """End the process at once with an exit status, after flushing standard output and error.
 
     Functions registered with `at_end` are called.

@@ -122,7 +122,7 @@ class Results:
         else:
             self.written.append(path)
 
-    def say(self) -> None:
+    def print_paths(self) -> None:
         """Print the paths of the written files."""
         if self.written:
             print(f"written: {', '.join(map(str, self.written))}")

@@ -27,7 +27,7 @@ def visible_line(text: str, longest: int) -> str:
     return line if len(line) <= longest else f"{line[:longest]} ..."
 
 
-def first_ones(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
+def limit_lines(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
     """Return at most ``limit`` lines, and a line that counts the omitted ``things``."""
     more = f"and {len(lines) - limit} more {things}".rstrip()
     return [*lines[:limit], more] if len(lines) > limit else list(lines)

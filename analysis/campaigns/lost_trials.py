@@ -39,6 +39,6 @@ def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
     ]
 
 
-def lost_of(summary: Summary) -> list[str]:
+def describe_lost_trials(summary: Summary) -> list[str]:
     """Return the lines for a summary's variants."""
     return lost_lines({variant: entry.statuses for variant, entry in summary.items()})

@@ -61,7 +61,7 @@ def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fm
         raise InputError(file, name, f"{problem[:1].lower()}{problem[1:]}", remedy) from error
     options = SystemOptions(**{name: getattr(converted, name) for name in stored})
     if of_fmu and options.chosen["open_inputs"] == REFUSE:
-        return options.but(
+        return options.replace(
             open_inputs=None
         )  # invalid options of a stand-alone FMU were rejected before this was written
     return options

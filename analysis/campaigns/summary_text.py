@@ -9,7 +9,7 @@ from ...common.percent import percent
 from .plain_text import align_columns, short
 from .statistics import STATISTICS
 from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
-from .tables import requirement_lines, who_cells, who_heads
+from .tables import group_cells, group_headings, requirement_lines
 
 ALL = "all"
 WIDTH = 100  # columns
@@ -80,12 +80,12 @@ def _fit_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | 
 def _cells(
     rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None, columns: Sequence[str]
 ) -> list[list[str]]:
-    table = [["metric, successful trials", *who_heads(group), *columns, "unit"]]
+    table = [["metric, successful trials", *group_headings(group), *columns, "unit"]]
     for metric in metrics:
         for row in rows:
             values = row.entry.metrics[metric]
             numbers = [short(values.value(key)) for key in columns]
-            table.append([metric, *who_cells(row, group), *numbers, values.unit])
+            table.append([metric, *group_cells(row, group), *numbers, values.unit])
     return table
 
 
@@ -107,14 +107,18 @@ def summary_text(summary: Summary, group: str | None = None, metrics: Sequence[s
     ``metrics`` are those to print; None for all.
     """
     rows = summary_rows(summary)
-    rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
+    rates = [[*group_headings(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
     for row in rows:
         low, high = row.entry.success_interval
         statuses = ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items())
         rate = percent(row.entry.success_rate)
         interval = f"{percent(low)} to {percent(high)}"
-        rates.append([*who_cells(row, group), str(row.entry.trials), rate, interval, statuses])
+        rates.append([*group_cells(row, group), str(row.entry.trials), rate, interval, statuses])
     if metrics is None:
         metrics = list(dict.fromkeys(metric for variant in summary.values() for metric in variant.metrics))
-    tables = [rate_lines(rates, len(who_heads(group))), requirement_lines(summary), metric_lines(rows, metrics, group)]
+    tables = [
+        rate_lines(rates, len(group_headings(group))),
+        requirement_lines(summary),
+        metric_lines(rows, metrics, group),
+    ]
     return "\n\n".join("\n".join(lines) for lines in tables if lines)

@@ -9,12 +9,12 @@ from .summary import Summary, SummaryRow
 from .verdicts.acceptance import AcceptanceVerdict
 
 
-def who_heads(group: str | None) -> list[str]:
-    """Return the headings of `who_cells`; ``group`` is the draw by which trials are grouped, or None."""
+def group_headings(group: str | None) -> list[str]:
+    """Return the headings of `group_cells`; ``group`` is the draw by which trials are grouped, or None."""
     return ["variant"] if group is None else ["variant", group]
 
 
-def who_cells(row: SummaryRow, group: str | None) -> list[str]:
+def group_cells(row: SummaryRow, group: str | None) -> list[str]:
     """Return a row's variant and, if trials are grouped, the value of its group or "all"."""
     return [row.variant] if group is None else [row.variant, row.group or "all"]
 

@@ -11,7 +11,7 @@ from ...common.errors import NEAR, InputError, SeveralProblemsError, suggestion
 from ..runtime.fmi.variable import ScalarVariable
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.dimensions import array_shapes, text_of
-from ..runtime.ssp.kinds import leads
+from ..runtime.ssp.kinds import can_connect
 from ..runtime.ssp.names import elements, split_name
 from ..runtime.system.flattening import WIDENED
 from ..runtime.system.fmu import Fmu
@@ -155,8 +155,8 @@ class _Wirer:
         ends = [self.connector(point, other) for point, other in ((source, target), (target, source))]
         start, end = ends
         names = [".".join(filter(None, point)) for point in (source, target)]
-        if not leads(start.kind, not source[0], end.kind, not target[0]):
-            if leads(end.kind, not target[0], start.kind, not source[0]):
+        if not can_connect(start.kind, not source[0], end.kind, not target[0]):
+            if can_connect(end.kind, not target[0], start.kind, not source[0]):
                 texts = [INDEX.sub("", name) for name in names]
                 remedy = f"the ends are swapped: write {texts[1]} {ARROW} {texts[0]}"
             else:
@@ -167,7 +167,7 @@ class _Wirer:
             problem = f"types do not fit: {start.type} and {end.type}"
             self.refuse(entry, problem, "connect variables of one type")
             return False
-        if start.unit and end.unit and not start.unit.fits(end.unit):
+        if start.unit and end.unit and not start.unit.is_convertible(end.unit):
             problem = f"units do not convert: {names[0]} is in {start.unit.name}, {names[1]} in {end.unit.name}"
             self.refuse(entry, problem, "connect variables of one quantity")
             return False

@@ -131,7 +131,7 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
     if unit == into or unit is None or into is None:
         return 1.0, 0.0
     source, target = (replace(unit_by_name(name), is_relative=is_relative) for name in (unit, into))
-    return source.conversion_to(target) if source.fits(target) else None
+    return source.conversion_to(target) if source.is_convertible(target) else None
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:

@@ -13,7 +13,7 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ...common.machine.room import check_room
-from ...common.visible import first_ones
+from ...common.visible import limit_lines
 from ..runtime.flight.interruptible import fly
 from ..runtime.fmi.proposals import proposed_step
 from ..runtime.process.opening import open_simulation
@@ -72,7 +72,7 @@ class Reproduction:
             for each in self.signals
             if each.tolerance > WIDEST
         ]
-        return [*([few] if self.signals and self.samples < FEWEST else []), *first_ones(wide, NAMED, "signals")]
+        return [*([few] if self.signals and self.samples < FEWEST else []), *limit_lines(wide, NAMED, "signals")]
 
 
 def reproduce(
@@ -142,7 +142,7 @@ def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[st
             problems.append(f"column {name}: {problem}")
         elif full not in network.driven:
             variables[name] = full
-    return variables, first_ones(problems, NAMED, "columns")
+    return variables, limit_lines(problems, NAMED, "columns")
 
 
 def _table(files: Mapping[str, bytes], name: str, label: str) -> Trajectory:
@@ -164,7 +164,7 @@ def _prepare(
     loaded: dict[str, Fmu],
 ) -> PreparedSystem:
     stop = float(reference.time[-1]) if experiment.stop is None else experiment.stop
-    options = options.but(stop_time=stop, step=experiment.step)
+    options = options.replace(stop_time=stop, step=experiment.step)
     others: set[str] = set()
     component = ""
     if archive.is_fmu:
@@ -176,13 +176,13 @@ def _prepare(
             name for name, variable in fmu.variables.items() if variable.causality != "input" or variable.type in TEXTS
         }
         if options.chosen["step"] is None:
-            options = options.but(step=_step(reference.time, proposed_step(fmu.description, fmu.label, [])))
+            options = options.replace(step=_step(reference.time, proposed_step(fmu.description, fmu.label, [])))
     if experiment.parameters is not None:
         content = _content(files, experiment.parameters, archive.label)
         if component:
             content = _with_component(content, component, f"{archive.label}!{experiment.parameters}")
         archive = replace(archive, files={**archive.files, SET: content}, known_digest=None)
-        options = options.but(parameters=(*options.parameters, posixpath.basename(SET)))
+        options = options.replace(parameters=(*options.parameters, posixpath.basename(SET)))
     series = None
     if experiment.stimuli is not None:
         series = _table(files, experiment.stimuli, archive.label).series(without=others)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ...common.errors import InputError
-from ...common.visible import first_ones
+from ...common.visible import limit_lines
 from ...fmus_src.evidence.manifest import STABILITY
 from ..campaigns.definition.plan import read_plan
 from ..campaigns.execute.campaign import open_campaign
@@ -65,7 +65,7 @@ def compare_report(
         for key in {**numbers, **now}
         if key != ".perilune" and not _same(numbers.get(key), now.get(key), relative)
     ]
-    return [f"{name}: {line}" for line in first_ones(differences, NAMED)]
+    return [f"{name}: {line}" for line in limit_lines(differences, NAMED)]
 
 
 def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | None) -> dict[str, object]:

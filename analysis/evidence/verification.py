@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ...common.bounds import ARCHIVE_BYTES, ExcessError
 from ...common.errors import InputError
 from ...common.regular import read_input
-from ...common.visible import first_ones
+from ...common.visible import limit_lines
 from ...common.zips import ZippedFiles
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.system.fmu import Fmu
@@ -52,8 +52,8 @@ def verify_archive(
     problems = [f"{name}: {problem}" for name, problem in (check_listed(manifest, files) | changed).items()]
     plan = plan_experiments(manifest, files, archive.label)
     notes = [
-        *first_ones([f"{name}: not in SHA256SUMS, added later" for name in added], NAMED, "files"),
-        *first_ones([f"manifest: {flaw}" for flaw in manifest.flaws], NAMED, "flaws of the manifest"),
+        *limit_lines([f"{name}: not in SHA256SUMS, added later" for name in added], NAMED, "files"),
+        *limit_lines([f"manifest: {flaw}" for flaw in manifest.flaws], NAMED, "flaws of the manifest"),
         *plan.notes,
     ]
     loaded: dict[str, Fmu] = {}

@@ -14,7 +14,7 @@ from ..runtime.system.prepared import PreparedSystem
 from ..runtime.system.schedule import origin
 from .point.bench import StudyError
 from .request.request import Request, Subject
-from .results.report import JointReport, LoopReport, Orders, StabilityStudy, Unstudied
+from .results.report import FailedStudy, JointReport, LoopReport, Orders, StabilityStudy
 from .results.requirement import MarginRequirement, MarginVerdict
 from .results.varied import Dispersion
 
@@ -23,7 +23,7 @@ NOT_STUDIED, DIFFERENT = "not studied", "not known, since linearised and measure
 Judgeable = LoopReport | JointReport | Dispersion
 
 
-def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) -> StabilityStudy:
+def study_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) -> StabilityStudy:
     """Run the study ``make`` of a request, in both orders if a loop contains an undeclared FMU.
 
     With several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. If all would
@@ -51,13 +51,13 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) 
         direct = [name for name in fmus if name not in without]
     other: StabilityStudy | None = None
     if direct and _can_be_direct(subject, request, direct):
-        options = request.options.but(feedthrough=(*request.options.chosen["feedthrough"], *direct))
+        options = request.options.replace(feedthrough=(*request.options.chosen["feedthrough"], *direct))
         loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
         declaration = replace(request.declaration, loops=loops, sweeps=())
         try:
             other = make(replace(request, options=options, declaration=declaration))
         except StudyError as error:
-            lost = tuple(Unstudied(report.system, point.name, "system", str(error)) for point in report.points)
+            lost = tuple(FailedStudy(report.system, point.name, "system", str(error)) for point in report.points)
             other = replace(report, loops=(), joint=(), sweeps=(), unstudied=lost)
     else:
         direct, without = [], list(fmus)
@@ -67,7 +67,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) 
 
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
     """Return True if components can all have feedthrough without closing an algebraic loop."""
-    options = subject.options.but(feedthrough=(*subject.options.chosen["feedthrough"], *names))
+    options = subject.options.replace(feedthrough=(*subject.options.chosen["feedthrough"], *names))
     trial = replace(subject, options=options)
     try:
         for point in request.declaration.points:
@@ -110,12 +110,12 @@ def _merge_verdicts(report: StabilityStudy, orders: Orders) -> StabilityStudy:
         joint=tuple(
             replace(joint, requirements=_both(joint, joints.get((joint.name, joint.point)))) for joint in report.joint
         ),
-        unstudied=tuple(_withhold(lost, orders.report) for lost in report.unstudied),
+        unstudied=tuple(_withhold_verdict(lost, orders.report) for lost in report.unstudied),
         orders=orders,
     )
 
 
-def _withhold(lost: Unstudied, other: StabilityStudy) -> Unstudied:
+def _withhold_verdict(lost: FailedStudy, other: StabilityStudy) -> FailedStudy:
     """Withhold the verdict on a loop that fails without figures in only one order."""
     here = (lost.name, lost.point)
     fails = any((each.name, each.point) == here and each.verdict is MarginVerdict.FAIL for each in other.unstudied)

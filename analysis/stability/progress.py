@@ -21,11 +21,11 @@ def show_progress() -> Iterator[Tell]:
     """Yield a progress bar on standard error during a study, if that is a terminal."""
     with progress_bar(total=0, unit="step") as bar:
 
-        def tell(expected: int, done: int) -> None:
+        def update(expected: int, done: int) -> None:
             bar.total += expected
             bar.update(done)
 
-        yield tell
+        yield update
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from ..campaigns.execute.workers import worker_count
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .dispersion import disperse
-from .orders import in_both_orders
+from .orders import study_both_orders
 from .point.bench import LoopError, StudyError
 from .point.frozen_plan import check_frozen_plan
 from .point.limit_cycles import element_report
@@ -25,7 +25,7 @@ from .progress import Tell, begin, listen, show_progress, tell_parent
 from .request.channels import Channel
 from .request.declaration import PointDeclaration
 from .request.request import Request, Subject
-from .results.report import JointReport, LoopReport, PointReport, StabilityStudy, Unstudied
+from .results.report import FailedStudy, JointReport, LoopReport, PointReport, StabilityStudy
 from .results.varied import Dispersion
 from .variation import run_sweep, vary_step
 
@@ -39,7 +39,7 @@ class PointResult:
     report: PointReport
     loops: list[LoopReport]
     joint: list[JointReport]
-    unstudied: list[Unstudied]
+    unstudied: list[FailedStudy]
     cells: list[int] | None
     provenance: dict[str, Any]
 
@@ -53,7 +53,7 @@ def study(request: Request, replay: Replay, workers: int | None = None) -> Stabi
     """
     with chdir(Path.cwd()), show_progress() as report:  # an FMU may change the folder
         count = worker_count(workers)
-        return in_both_orders(request, lambda each: _study(each, replay, count, report))
+        return study_both_orders(request, lambda each: _study(each, replay, count, report))
 
 
 def _study(request: Request, replay: Replay, count: int, tell: Tell) -> StabilityStudy:
@@ -76,14 +76,14 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
             (item.loop, item.point) == (sweep.loop, sweep.point) for result in results for item in result.loops
         )
         if known is None or not has_loop:
-            unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", "its loop has no linear model there"))
+            unstudied.append(FailedStudy(sweep.name, sweep.point, "sweep", "its loop has no linear model there"))
             continue
         subject = Subject(request.system, request.options)
         loop, point = request.loop(sweep.loop), request.point(sweep.point)
         try:
             sweeps.append(run_sweep(subject, point, loop, sweep, request.declaration.limits, known, tell))
         except StudyError as error:
-            unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
+            unstudied.append(FailedStudy(sweep.name, sweep.point, "sweep", str(error)))
     return StabilityStudy(
         system=request.name,
         provenance=results[0].provenance,
@@ -108,13 +108,13 @@ def study_point(request: Request, replay: Replay, point: PointDeclaration, tell:
         tell(0, 1)
         reports: list[LoopReport] = []
         joint: list[JointReport] = []
-        unstudied: list[Unstudied] = []
+        unstudied: list[FailedStudy] = []
         for channel in work.channels:
             try:
                 reports.append(_loop(request, subject, work, channel))
             except StudyError as error:
                 verdict = error.verdict if isinstance(error, LoopError) else None
-                unstudied.append(Unstudied(channel.name, point.name, "loop", str(error), verdict))
+                unstudied.append(FailedStudy(channel.name, point.name, "loop", str(error), verdict))
             tell(0, 1)
         lost = {item.name for item in unstudied}
         for loop in loops:
@@ -124,7 +124,7 @@ def study_point(request: Request, replay: Replay, point: PointDeclaration, tell:
                 joint_report = work.joint(loop, limits)
                 joint += [] if joint_report is None else [joint_report]
             except StudyError as error:
-                unstudied.append(Unstudied(loop.name, point.name, "simultaneous margins", str(error)))
+                unstudied.append(FailedStudy(loop.name, point.name, "simultaneous margins", str(error)))
         step = work.prepared.step
         result = PointResult(
             report=work.report(),
@@ -143,7 +143,7 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
     """Study one channel by linearisation and frequency-response test, with amplitudes and nonlinear elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
-    work.refuse_what_is_no_loop()
+    work.check_loop()
     work.refine()
     report = work.report([item.name for item in point.channels if item is not channel])
     crossings = [crossing.frequency for crossing in report.classical.phase]
@@ -171,7 +171,7 @@ def _vary(
     reports: Sequence[LoopReport],
     step: float,
     cells: Sequence[int],
-    unstudied: list[Unstudied],
+    unstudied: list[FailedStudy],
     tell: Tell,
 ) -> None:
     """Add results of repeated linearisations: other communication steps, the trials of the campaign."""
@@ -183,7 +183,7 @@ def _vary(
             limits = request.declaration.limits
             spread = disperse(subject, request.plan, point, loops, limits, cells, partial(replay, request), tell)
         except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
-            unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
+            unstudied.append(FailedStudy(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:
         report.sampling = steps.get(report.name, ())
         report.dispersion = spread.get(report.name)

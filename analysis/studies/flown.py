@@ -23,7 +23,7 @@ from .noise import Noise, conditions
 Columns = Mapping[str, np.ndarray]
 
 
-def strict(value: float) -> float | None:
+def strict_number(value: float) -> float | None:
     """Return a number for strict JSON: None if it is not finite."""
     return float(value) if np.isfinite(value) else None
 
@@ -62,7 +62,9 @@ class Flown:
         self.metrics = {name: np.concatenate([part[name] for part in metrics]) for name in metrics[0]}
         return self
 
-    def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> FlightDocument:
+    def simulation_json(
+        self, row: int, number: Callable[[float], float | str | None] = strict_number
+    ) -> FlightDocument:
         """Return draws and metrics of one simulation as strict JSON; ``number`` converts the metrics."""
         return {
             "draws": {name: float(column[row]) for name, column in self.draws.items() if not _is_stream(name)},

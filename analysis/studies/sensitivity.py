@@ -14,7 +14,7 @@ from ..campaigns.definition.plan import BatchPlan
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights
-from .flown import Flown, StudyResult, strict
+from .flown import Flown, StudyResult, strict_number
 from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_points, with_noise
 from .units import units_of
 
@@ -132,9 +132,9 @@ class SensitivityOutcome(StudyResult):
             for index, name in enumerate(self.inputs):
                 rows[name] |= {
                     "first": float(self.indices.first[row, index]),
-                    "first_interval": [strict(end) for end in self.indices.first_interval[:, row, index]],
+                    "first_interval": [strict_number(end) for end in self.indices.first_interval[:, row, index]],
                     "total": float(self.indices.total[row, index]),
-                    "total_interval": [strict(end) for end in self.indices.total_interval[:, row, index]],
+                    "total_interval": [strict_number(end) for end in self.indices.total_interval[:, row, index]],
                 }
         return rows
 

@@ -95,7 +95,7 @@ def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, fi
     try:
         prepared = prepare_system(archive, options)
     except MissingStopTimeError as error:
-        prepared = prepare_system(archive, options.but(stop_time=error.earliest))
+        prepared = prepare_system(archive, options.replace(stop_time=error.earliest))
     read_figures(prepared)
     read_declaration(prepared.network.description)
     return document

@@ -21,7 +21,7 @@ from ..options.option import FilePath
 from ..options.system import TrustOptions
 from ..options.verb import verb
 from ..runtime.flight.interruptible import StuckError
-from ..runtime.system.options import trust_of
+from ..runtime.system.options import select_permissions
 from .common.arguments import read_requirements
 from .common.campaigns import read_campaign
 from .run import STUCK, Result
@@ -170,4 +170,4 @@ def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> Replaye
             problem = "a campaign's folder has its own"
             raise InputError(f"`{name}`", "", problem, "leave it out, or give a system and `campaign`")
     watch = {name: options[name] for name in ("log", "timeout")}
-    return replay_trial(Path(source), trial, options["configuration"], trust=trust_of(options), **watch)
+    return replay_trial(Path(source), trial, options["configuration"], trust=select_permissions(options), **watch)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...common.atomic import write_atomically
-from ...common.errors import ExitStatus, InputError, call_by_flags
+from ...common.errors import ExitStatus, InputError, name_by_flags
 from ...common.targets import Results, check_file, check_folder
 from ..compose.files import report_changed_source
 from ..options.declaration import Verb
@@ -68,7 +68,7 @@ def output_result(verb: Verb, result: Documented, files: Mapping[str, Any]) -> E
         sys.stdout.write(_json_text(result))
     else:
         for line in result.lines():
-            print(call_by_flags(line, flags))
+            print(name_by_flags(line, flags))
     for name in reversed(list(declared)):  # first the verb's own files, then its page, last the JSON document
         path, writer = files.get(name), declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:
@@ -76,10 +76,10 @@ def output_result(verb: Verb, result: Documented, files: Mapping[str, Any]) -> E
         elif name == "json" and target not in (None, STANDARD_OUTPUT):
             written.write(Path(target), lambda file: write_atomically(file, _json_text(result).encode()))
     if target != STANDARD_OUTPUT:
-        written.say()
+        written.print_paths()
     problems = result.problems()
     for line in problems:
-        print(f"perilune: {call_by_flags(line, flags)}", file=sys.stderr)
+        print(f"perilune: {name_by_flags(line, flags)}", file=sys.stderr)
     if "open" in files and not written.failed:
         open_page("`open`", written.home / files["report"])
     if written.failed:

@@ -13,7 +13,7 @@ from ...common.targets import check_folder
 from ..campaigns.execute.campaign import open_campaign, open_folder
 from ..campaigns.execute.cluster.connection import cluster
 from ..campaigns.execute.runner import fly_campaign, merge_rows
-from ..campaigns.folder.numbering import numbers_of
+from ..campaigns.folder.numbering import parse_shards
 from ..campaigns.summary_text import select_metrics
 from ..documents.model import Document
 from ..documents.of.batch.printed import failure_lines, find_failed
@@ -21,7 +21,7 @@ from ..documents.of.campaign_folders import prepared_document, shards_document
 from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..runtime.system.options import trust_of
+from ..runtime.system.options import select_permissions
 from .batch import BatchResult
 from .common.campaigns import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
 from .common.documented import Documented
@@ -88,8 +88,8 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
     """
     if isinstance(numbers, str):
         raise InputError("shard", numbers, "a text, not a list of shards", f"give [{numbers!r}]")
-    shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
-    campaign = open_folder(Path(folder), trust_of(options))
+    shards = [numbers] if isinstance(numbers, int) else parse_shards([str(number) for number in numbers])
+    campaign = open_folder(Path(folder), select_permissions(options))
     warn_of_foreign_fmus(campaign)
     if options["retry_crashed"]:
         campaign.discard_lost(shards)

@@ -104,7 +104,7 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
     notes: list[str] = []
     problems: list[str] = []
     try:
-        if path.endswith(FILES) and options.but(strict=False) != System():
+        if path.endswith(FILES) and options.replace(strict=False) != System():
             raise InputError(
                 path, "system options", "not a system, and the option applies only to systems", "check it by itself"
             )
@@ -164,11 +164,11 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
     notes: list[str] = []
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
     for variant in (options.chosen["variant"], *others):
-        subject = Subject(path, options.but(variant=variant))
+        subject = Subject(path, options.replace(variant=variant))
         try:
             prepared = prepare_system(path, subject.options, subject.fmus)
         except MissingStopTimeError as error:
-            subject = Subject(path, subject.options.but(stop_time=error.earliest))
+            subject = Subject(path, subject.options.replace(stop_time=error.earliest))
             prepared = prepare_system(path, subject.options, subject.fmus)
             notes.append(f"{error.file}: no {error.element}: `run` needs `stop_time`")
         check_loops(subject, read_declaration(prepared.network.description))

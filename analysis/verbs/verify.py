@@ -17,7 +17,7 @@ from ..options.declared.library import VERIFY, VerifyOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.ssp.archive import open_system, system_names
-from ..runtime.system.options import SystemOptions, Watch, trust_of
+from ..runtime.system.options import SystemOptions, Watch, select_permissions
 from .common.arguments import path_list
 from .common.documented import Documented
 
@@ -57,7 +57,7 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
     nothing. ``timeout`` (s, wall clock) limits each simulation; other options restrict foreign FMUs. Raises InputError
     for a file without evidence, and for an experiment that exceeds a limit on size.
     """
-    system = SystemOptions(**trust_of(options).trust)
+    system = SystemOptions(**select_permissions(options).trust)
     watch = Watch(options["timeout"])
     verifications = [
         verify_archive(

@@ -19,7 +19,7 @@ from ..options.verb import verb
 from ..runtime.system.options import system_options
 from ..studies.flown import StudyCommands
 from ..studies.worst import outcome
-from ..studies.worst.request import MarginAsked, check_options, margin_asked
+from ..studies.worst.request import MarginRequest, check_options, request_margin
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
@@ -94,7 +94,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
             plan = read_campaign(system, campaign, options)
             result = replace(worst_case(plan, options["metric"], **search), commands=commands_of(plan))
         else:
-            request = margin_asked(
+            request = request_margin(
                 os.fspath(system),
                 system_options(options),
                 campaign=str(campaign),
@@ -110,7 +110,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     return store_result(WorstResult, result, folder, plan=plan, requirements=requirements)
 
 
-def _commands_of_margin(search: MarginAsked) -> StudyCommands:
+def _commands_of_margin(search: MarginRequest) -> StudyCommands:
     """Return the writers of commands for the studies of a search for the worst margin."""
 
     def replay(draws: Path, trial: int) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from perilune.common.errors import InputError
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from .contestant import ExchangeSystem, Fly, Unavailable
 from .contestants import CONTESTANTS
@@ -68,7 +68,7 @@ def main() -> None:
         except Exception as error:  # a peer may raise anything; the benchmark continues without it
             answer({"failed": f"{type(error).__name__}: {error}"})
             status = 1
-    leave(status)
+    exit_process(status)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from typing import Any
 from loky import ProcessPoolExecutor
 from loky.backend.reduction import dumps
 
-from ..process import leave
+from ..process import exit_process
 from .ending import end_with_parent
 
 
@@ -54,5 +54,5 @@ class _Packed:
 def _begin(parent: int, work: _Packed) -> None:
     end_with_parent(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
-    atexit.register(leave, 0)  # once its own handlers have run
+    atexit.register(exit_process, 0)  # once its own handlers have run
     work.unpack()()

@@ -19,7 +19,7 @@ from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.shipped import main as build
 from perilune.common.errors import InputError
 from perilune.common.paths import BUILD
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from .landing import fly_landings
 from .page import write_demo_page
@@ -87,4 +87,4 @@ def write_files(landing: FlightResult, sample: list[FlightResult], batch: Campai
 
 
 if __name__ == "__main__":
-    leave(main())
+    exit_process(main())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from perilune.analysis.campaigns.definition.plan import read_plan
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from .landing import fly_landings, landing_figure
 from .pictures import IMAGES, write_picture
@@ -34,4 +34,4 @@ if __name__ == "__main__":
     target = IMAGES / "landing.svg"
     draw_readme_figure(target)
     print(target)
-    leave(0)
+    exit_process(0)

@@ -13,7 +13,7 @@ from perilune.analysis.documents.common.colours import BLUE, FAINT, INK, ORANGE,
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 from perilune.fmus_src.guidance.rendezvous_guidance_jerk_limited import RendezvousGuidanceJerkLimited
 from perilune.fmus_src.interfaces.ports.robot import ROTOR_MOMENTUM
 
@@ -239,4 +239,4 @@ FIGURES = {
 
 if __name__ == "__main__":
     print(*draw_rendezvous_figures(fly(), IMAGES / "rendezvous"), sep="\n")
-    leave(0)
+    exit_process(0)

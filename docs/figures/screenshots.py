@@ -16,7 +16,7 @@ from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import WebDriverWait
 
 from perilune.analysis.cli import main as perilune
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 from tests.support.campaigns.showing import showing
 from tests.support.pages.driven import PATIENCE, driven, scroll_to_plot
 
@@ -123,4 +123,4 @@ def _write(picture: bytes, path: Path) -> None:
 
 if __name__ == "__main__":
     main()
-    leave(0)
+    exit_process(0)

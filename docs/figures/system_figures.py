@@ -15,7 +15,7 @@ from perilune.analysis.documents.common.colours import FAINT, look
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from .pictures import IMAGES, write_picture
 
@@ -242,4 +242,4 @@ def draw_system_figures(folder: Path = IMAGES) -> list[Path]:
 
 if __name__ == "__main__":
     print(*draw_system_figures(), sep="\n")
-    leave(0)
+    exit_process(0)

@@ -53,7 +53,7 @@ def test_what_was_written_is_read_back_to_the_bit(original):
     for name, values in written.plan.draws.columns.items():
         assert read.draws[name].tobytes() == values.tobytes()
     assert [metric.expression for metric in read.metrics] == [m.expression for m in written.plan.campaign.metrics]
-    assert read.strangers == 0
+    assert read.foreign_traces == 0
 
 
 def test_some_signals_of_a_trace(original):
@@ -155,7 +155,7 @@ def test_traces_of_an_earlier_batch_are_left_out_and_told(folder):
     write_sample(folder, traced=5)
     read = read_batch(folder)
     assert read.traced == {variant: [0, 1, 2, 3, 4] for variant in ("alpha", "beta", "gamma")}
-    assert read.strangers == 3 * 7
+    assert read.foreign_traces == 3 * 7
     assert compare([folder]).notes == ("batch holds 21 traces of another batch, which are omitted",)
     shutil.copy(folder / "traces/alpha/000001.parquet", folder / "traces/alpha/000030.parquet")
     assert 30 not in read_batch(folder).traced["alpha"]

@@ -19,7 +19,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.documents.of.stability.orders import order_sentences, withheld_line
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.stability.loops.margin_values import MARGINS, MarginQuantity
-from perilune.analysis.stability.orders import in_both_orders
+from perilune.analysis.stability.orders import study_both_orders
 from perilune.analysis.stability.point.bench import StudyError
 from perilune.analysis.stability.request.request import read_request
 from perilune.analysis.stability.results.requirement import MarginVerdict
@@ -165,7 +165,7 @@ def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_
             raise StudyError(reason)
         return replace(reports[1].orders.report)  # any report in one order; this one passes
 
-    report = in_both_orders(read_request(path, SystemOptions()), make)
+    report = study_both_orders(read_request(path, SystemOptions()), make)
     assert report.verdict is MarginVerdict.WITHHELD
     assert {item.requirement.as_feedthrough.note for item in report.judgements()} == {"not studied"}
     assert any(sentence.endswith(f"is not studied: {reason}") for sentence in order_sentences(report))

@@ -12,7 +12,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.stability.point.modes import circles, multipliers
+from perilune.analysis.stability.point.modes import find_coupled_cells, multipliers
 from tests.support.builders import component, inline, pack
 from tests.support.loops.exact_systems import pendulum
 from tests.support.loops.studies import foreign_system
@@ -107,6 +107,6 @@ def test_blocks_of_a_matrix():
     whole[5, 4] = 1.0  # is forgotten
     order = random.permutation(6)
     mixed = whole[np.ix_(order, order)]
-    actual = np.concatenate([multipliers(mixed, cells) for cells in circles(mixed)])
+    actual = np.concatenate([multipliers(mixed, cells) for cells in find_coupled_cells(mixed)])
     exact = np.linalg.eigvals(whole[:4, :4])
     assert sorted(abs(actual)) == pytest.approx(sorted(abs(exact)), rel=1e-12)

@@ -18,7 +18,7 @@ from ..folder.stored import StoredBatch
 from ..plain_text import faults_line
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..summary_text import metric_lines, rate_lines, select_metrics
-from ..tables import who_cells, who_heads
+from ..tables import group_cells, group_headings
 from ..trials import TrialTable
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 
@@ -235,12 +235,12 @@ class CampaignComparison:
         rows = summary_rows(self.summary)
         level = f"({100 * CONFIDENCE:g} %)"  # metrics are over all trials, unlike those of a batch's own summary
         heads = [f"{name} % {level}" if name == SUCCESS else f"{name} % of all {level}" for name in names]
-        cells = [[*who_heads(self.group), "trials", *heads]]
+        cells = [[*group_headings(self.group), "trials", *heads]]
         for row in rows:
             rates = [rate_text(row.entry.rates[name]) for name in names]
-            cells.append([*who_cells(row, self.group), str(row.entry.trials), *rates])
+            cells.append([*group_cells(row, self.group), str(row.entry.trials), *rates])
         lines = metric_lines(rows, selected, self.group)
-        table = [*rate_lines(cells, len(who_heads(self.group))), *(["", *lines] if lines else [])]
+        table = [*rate_lines(cells, len(group_headings(self.group))), *(["", *lines] if lines else [])]
         return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:

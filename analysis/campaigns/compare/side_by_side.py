@@ -111,8 +111,8 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
             known = own.get(metric.name, metric)
             if any(getattr(known, key) != getattr(metric, key) for key in DEFINITION):
                 yield f"{pair} define the metric {metric.name} differently"
-        if other.strangers:
-            yield f"{other_name} holds {other.strangers} traces of another batch, which are omitted"
+        if other.foreign_traces:
+            yield f"{other_name} holds {other.foreign_traces} traces of another batch, which are omitted"
 
 
 def _distinct_names(paths: Sequence[Path]) -> list[str]:

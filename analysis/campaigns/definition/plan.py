@@ -185,7 +185,7 @@ class BatchPlan:
 
     def prepare(self, variant: Variant) -> PreparedSystem:
         """Return the prepared system of one variant. Raises InputError."""
-        options = self.options.among(campaign=self.campaign.layer_of(variant))
+        options = self.options.merge(campaign=self.campaign.layer_of(variant))
         try:
             return prepare_system(self.archive or self.system, options, series=self.series)
         except InputError as error:

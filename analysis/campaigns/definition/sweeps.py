@@ -15,15 +15,17 @@ from .campaign import MAXIMUM_GROUPS, Campaign
 from .distributions import Grid
 
 
-def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
+def split_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
     """Return system options without their sweeps, and the sweeps as texts by parameter.
 
     A sweep is a text of three numbers separated by colons. Other texts are left to the code that sets single values,
     which knows whether a parameter accepts text.
     """
-    sweeps = {name: value.strip() for name, value in options.set.items() if isinstance(value, str) and _ends(value)}
+    sweeps = {
+        name: value.strip() for name, value in options.set.items() if isinstance(value, str) and _parse_range(value)
+    }
     single = {name: value for name, value in options.set.items() if name not in sweeps}
-    return options.but(set=single), sweeps
+    return options.replace(set=single), sweeps
 
 
 def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
@@ -65,7 +67,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     return replace(swept, group=first.name)
 
 
-def _ends(text: str) -> list[float]:
+def _parse_range(text: str) -> list[float]:
     """Return the three numbers of a sweep, or none if the text is not a sweep."""
     try:
         ends = [float(part) for part in text.split(":")]
@@ -76,7 +78,7 @@ def _ends(text: str) -> list[float]:
 
 def _values(name: str, text: str) -> tuple[float, ...]:
     place = f"{name}={text}"
-    numbers = _ends(text)
+    numbers = _parse_range(text)
     if not numbers or not all(map(math.isfinite, numbers)):
         raise InputError(SINGLE, place, "not a sweep", "write low:high:step with three numbers")
     low, high, step = numbers

@@ -25,10 +25,10 @@ from ..folder.provenance import CampaignProvenance
 from ..folder.summary import read_summary
 from ..lost_trials import lost_status
 from ..trials import TrialTable
-from .folder import begin, cut, resume_folder
+from .folder import remove_further_trials, resume_folder, write_prepared_campaign
 from .identity import campaign_key
 from .metadata import provenance
-from .plan_manifest import gather, restore
+from .plan_manifest import make_manifest, restore
 from .store import ShardStore
 from .workers import in_threads, needs_children, worker_count
 
@@ -37,16 +37,16 @@ from .workers import in_threads, needs_children, worker_count
 class LoadedCampaign:
     """Campaign ready for simulation, with every file read and stored in its ``folder`` (absolute), if it has one.
 
-    ``plan`` is the user's plan, ``flown`` the same plan with the files stored in the folder; ``named`` is the folder as
-    the user names it.
+    ``plan`` is the user's plan, ``stored_plan`` the same plan with the files stored in the folder; ``user_folder`` is
+    the folder as the user names it.
     """
 
     plan: BatchPlan
-    flown: BatchPlan
+    stored_plan: BatchPlan
     systems: Mapping[str, PreparedSystem]
     manifest: CampaignManifest
     folder: Path | None
-    named: Path | None = None
+    user_folder: Path | None = None
 
     def of_first(self, trials: int) -> LoadedCampaign:
         """Return the campaign reduced to its first trials, which must end with a shard; its folder is reduced, too."""
@@ -55,13 +55,13 @@ class LoadedCampaign:
         plan = self.plan.of_first(trials)
         if self.folder is None:
             return replace(self, plan=plan, manifest=replace(self.manifest, trials=trials))
-        return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
+        return replace(self, plan=plan, manifest=remove_further_trials(self.folder, self.manifest, plan))
 
     @property
     def provenance(self) -> CampaignProvenance:
         """Inputs that determine its numbers, other than the trials themselves."""
         is_earlier = self.manifest.identities is None
-        entries = provenance(self.flown if is_earlier else self.plan, self.systems)
+        entries = provenance(self.stored_plan if is_earlier else self.plan, self.systems)
         entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
         return entries
 
@@ -75,7 +75,7 @@ class LoadedCampaign:
         return None if self.folder is None else CampaignFolder(self.folder, self.provenance)
 
     def store(self) -> ShardStore:
-        return ShardStore(self.plan if self.folder is None else self.flown, self.stored)
+        return ShardStore(self.plan if self.folder is None else self.stored_plan, self.stored)
 
     def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
         """Return the trials of a stored shard by variant."""
@@ -117,7 +117,7 @@ class LoadedCampaign:
         if self.manifest.elementary_functions != VERSION:
             problem = f"{self.manifest.elementary_functions}, this perilune has {VERSION}: the last bits would differ"
             remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
-            raise InputError(self.named or FILE, "elementary_functions", problem, remedy)
+            raise InputError(self.user_folder or FILE, "elementary_functions", problem, remedy)
         wanted = set(shards)
         for shard in sorted(wanted):
             if not 0 <= shard < self.numbering.count:
@@ -148,14 +148,14 @@ def open_campaign(
     in_child = needs_children(count, in_threads(systems.values(), engine), engine)
     for prepared in systems.values():
         check_fused(prepared, in_child=in_child or not may_load_here(prepared))
-    manifest, contents = gather(plan, systems)
+    manifest, contents = make_manifest(plan, systems)
     if output is None:
         return LoadedCampaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     with lock_folder(folder, alone=not resume):
-        manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
+        manifest = (resume_folder if resume else write_prepared_campaign)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
-    flown = replace(flown, options=flown.options.but(flavour=plan.options.chosen["flavour"]))
+    flown = replace(flown, options=flown.options.replace(flavour=plan.options.chosen["flavour"]))
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
     return LoadedCampaign(plan, flown, systems, manifest, folder, output)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.group import FlightGroup
-from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
+from ...runtime.flight.interruptible import StuckError, fly, make_empty_flight, run
 from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, FlightResult
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
@@ -107,10 +107,10 @@ class Flyer:
         for simulation, _ in list(self._ready.values()):
             simulation.interrupt()
 
-    def give_up(self) -> None:
+    def abort(self) -> None:
         """End a simulation in another thread that has not reached a communication point, if possible."""
         for simulation, _ in list(self._ready.values()):
-            simulation.give_up("was interrupted")
+            simulation.abort("was interrupted")
 
     def fly(self, variant: str, trials: range) -> TrialTable:
         """Simulate trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
@@ -210,7 +210,7 @@ class Flyer:
             return flight
         except StuckError as error:  # its instances are lost: the next trial has new ones
             del self._ready[variant]
-            return nothing_flown(simulation, str(error))
+            return make_empty_flight(simulation, str(error))
 
     def _warn_once(self, variant: str, text: str) -> None:
         """Warn of problems in a trial of a variant, only the first time."""
@@ -222,7 +222,7 @@ class Flyer:
         if variant in self._ready and not self.halted:
             simulation, _ = self._ready[variant]
             sampled = self.values_for(trial)
-            simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
+            simulation.queue_run(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
 
     def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
         """Return True if a simulation whose process ended is to be repeated in a new one.

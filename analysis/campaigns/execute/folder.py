@@ -17,7 +17,9 @@ from ..folder.numbering import Numbering
 from .identity import differences
 
 
-def begin(folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan) -> CampaignManifest:
+def write_prepared_campaign(
+    folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan
+) -> CampaignManifest:
     """Write a campaign's manifest, contents and draws to a folder, and remove trials of other campaigns."""
     for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
         (folder / name).unlink(missing_ok=True)
@@ -66,7 +68,7 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
             return
 
 
-def cut(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignManifest:
+def remove_further_trials(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignManifest:
     """Reduce the folder to the plan's trials, which are fewer: whole shards and their traces."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
@@ -82,7 +84,7 @@ def cut(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignMa
     return manifest
 
 
-def tidy(folder: Path) -> None:
+def remove_temporary_files(folder: Path) -> None:
     """Remove temporary files of killed writers from the folder of a campaign whose shards are all stored."""
     for place in (folder, folder / FOLDER, folder / CONTENTS, *trace_path(folder, "", 0).parent.glob("*/")):
         remove_partial(place)

@@ -53,7 +53,9 @@ def differences(stored: CampaignManifest, requested: CampaignManifest) -> str:
             document.pop(name, None)
         if stored.identities is not None:
             _drop_limits(document)
-    phrases = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
+    phrases = [
+        f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _iterate_differences("", one, other)
+    ]
     more = f"; and {len(phrases) - MOST_DIFFERENCES} more" if len(phrases) > MOST_DIFFERENCES else ""
     return "; ".join(phrases[:MOST_DIFFERENCES]) + more
 
@@ -96,11 +98,11 @@ def _without_names(document: Any) -> Any:
     return content
 
 
-def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
+def _iterate_differences(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
     """Yield dotted name and both values of the entries in which two documents differ."""
     if isinstance(left, dict) and isinstance(right, dict):
         for key in {**left, **right}:
-            yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))
+            yield from _iterate_differences(f"{name}.{key}" if name else key, left.get(key), right.get(key))
     elif left != right:
         yield name, left, right
 

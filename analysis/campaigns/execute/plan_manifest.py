@@ -65,7 +65,7 @@ class _Contents(dict[str, bytes]):
         return {"label": label, "sha256": sha256, "content": self.keep(bytes(sink.getvalue()), ".parquet")}
 
 
-def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[CampaignManifest, dict[str, bytes]]:
+def make_manifest(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[CampaignManifest, dict[str, bytes]]:
     """Return the manifest of a plan read from a campaign's file, and the contents that it refers to.
 
     ``systems`` are those of `check_plan`, by variant. Foreign FMUs are tested for their reset here, at first use.
@@ -111,7 +111,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Camp
 def _system_document(archives: Sequence[SystemArchive], contents: _Contents) -> SystemDocument:
     """Return the document of a system read once for each variant, with the files of all of them."""
     archive = archives[0]
-    unlisted = dict.fromkeys(name for each in archives for name in each.besides)
+    unlisted = dict.fromkeys(name for each in archives for name in each.unlisted)
     return {
         "name": archive.name,
         "label": archive.label,
@@ -175,7 +175,7 @@ def restore(
     plan = BatchPlan(
         manifest.system["label"],
         _restore_campaign(source, manifest, folder),
-        options.but(folder=str(contents), **trust.trust),
+        options.replace(folder=str(contents), **trust.trust),
         source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=_restore_series(contents, manifest),

@@ -26,7 +26,7 @@ from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
 from ..trials import TrialTable
 from .campaign import LoadedCampaign
-from .folder import tidy
+from .folder import remove_temporary_files
 
 
 @dataclass
@@ -54,11 +54,11 @@ class CampaignResult:
         Trials after those in ``rows`` are removed from the campaign. ``more`` are further fields of a derived class.
         """
         campaign = campaign.of_first(len(next(iter(rows.values()))))
-        result = cls(campaign.plan, rows, campaign.provenance, campaign.named, **more)
+        result = cls(campaign.plan, rows, campaign.provenance, campaign.user_folder, **more)
         if campaign.folder is not None:
             with lock_folder(campaign.folder):
                 result.write_summary(campaign.folder)
-                tidy(campaign.folder)
+                remove_temporary_files(campaign.folder)
         return result
 
     @cached_property

@@ -13,7 +13,7 @@ from ....common.errors import InputError
 from ....common.progress import progress_bar
 from ..definition.plan import BatchPlan
 from ..folder.lock import lock_folder
-from ..folder.numbering import spans
+from ..folder.numbering import format_shards
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
 from .campaign import LoadedCampaign, open_campaign
@@ -50,11 +50,11 @@ def run_batch(
 def merge_rows(campaign: LoadedCampaign) -> Mapping[str, TrialTable]:
     """Return the trials by variant of a campaign whose shards are stored. Raises InputError if some are missing."""
     missing = campaign.missing()
-    decision = _decision(campaign, missing)
+    decision = _decide(campaign, missing)
     if missing and not decision.is_decided:
         count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
-        remedy = f"perilune shard {campaign.folder} {spans(missing)} simulates them"
-        raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
+        remedy = f"perilune shard {campaign.folder} {format_shards(missing)} simulates them"
+        raise InputError(str(campaign.folder), f"shards {format_shards(missing)}", count, remedy)
     return _rows(campaign, campaign.store(), decision)
 
 
@@ -71,7 +71,7 @@ def fly_campaign(
     If the campaign ends once it is decided, trials after the deciding shard are omitted, even if they were simulated.
     """
     store = campaign.store()
-    decision = _decision(campaign, campaign.missing())
+    decision = _decide(campaign, campaign.missing())
     flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())
     if elsewhere is not None:
         flying = elsewhere(campaign, shards)
@@ -90,7 +90,7 @@ def fly_campaign(
     return _rows(campaign, store, decision)
 
 
-def _decision(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDecision:
+def _decide(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDecision:
     """Return the decision from the stored shards of a campaign."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
@@ -118,7 +118,7 @@ def _fly_here(
     tasks = -(-flights // size)
     with (
         FlyerPool(
-            campaign.flown, min(count, max(tasks, 1)), threads, in_child=engine == "processes", trials=trials
+            campaign.stored_plan, min(count, max(tasks, 1)), threads, in_child=engine == "processes", trials=trials
         ) as pool,
         closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
     ):

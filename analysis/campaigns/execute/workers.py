@@ -92,7 +92,7 @@ class FlyerPool:
             return
         (flyer,) = self._flyers
         for index, task in enumerate(tasks):
-            outcome = wait(partial(function, flyer, *task), flyer.interrupt, flyer.give_up)
+            outcome = wait(partial(function, flyer, *task), flyer.interrupt, flyer.abort)
             if flyer.halted:
                 raise KeyboardInterrupt
             yield index, outcome
@@ -129,7 +129,7 @@ class FlyerPool:
             flyer.interrupt()
         wait_for(futures, timeout=PATIENCE)
         for flyer in self._flyers:
-            flyer.give_up()
+            flyer.abort()
 
     def __enter__(self) -> FlyerPool:
         return self

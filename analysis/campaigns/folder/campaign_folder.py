@@ -24,11 +24,11 @@ from .files import (
     IDENTITY,
     NEW_FOLDER,
     SUMMARY,
-    about_of,
     check_columns,
     describe,
     describe_columns,
     numbers,
+    read_metadata,
     read_schema,
     read_table,
     read_trace,
@@ -165,7 +165,7 @@ class CampaignFolder:
         path, size = shard.path, len(shard.trials)
         group = None if variant is None else self.variants.index(variant)
         table = read_table(path, names if names is None else {*names, *IDENTITY}, group)
-        if self._trials_in(path, about_of(table.schema), "the campaign that was opened") != shard.trials:
+        if self._trials_in(path, read_metadata(table.schema), "the campaign that was opened") != shard.trials:
             raise InputError(path, "trials", "changed since the campaign was opened", "run the command again")
         whole = (*COLUMNS, *(f"metric.{name}" for name in self.provenance["metrics"]))
         check_columns(table, whole if names is None else names, path)

@@ -112,7 +112,7 @@ def describe_columns(path: Path) -> object:
 
     Raises InputError for a damaged file.
     """
-    return about_of(read_schema(path)) if os.path.lexists(path) else None
+    return read_metadata(read_schema(path)) if os.path.lexists(path) else None
 
 
 def read_schema(path: Path) -> pyarrow.Schema:
@@ -150,7 +150,7 @@ def unreadable(path: Path, error: Exception) -> InputError:
     return InputError(path, "", problem, "remove it: the batch's command with `resume` simulates its trials again")
 
 
-def about_of(schema: pyarrow.Schema) -> object:
+def read_metadata(schema: pyarrow.Schema) -> object:
     """Return the metadata of a table, None if it has none."""
     try:
         return json.loads((schema.metadata or {}).get(b"perilune", b"null"))

@@ -33,7 +33,7 @@ def shard_size(trials: int) -> int:
     return min(max(-(-trials // PARTS), LEAST), MOST)
 
 
-def spans(shards: Sequence[int]) -> str:
+def format_shards(shards: Sequence[int]) -> str:
     """Return ascending shard numbers as text for `perilune shard`: 0-3 7."""
     starts = [shard for index, shard in enumerate(shards) if index == 0 or shards[index - 1] != shard - 1]
     ends = [shard for index, shard in enumerate(shards) if index == len(shards) - 1 or shards[index + 1] != shard + 1]
@@ -41,7 +41,7 @@ def spans(shards: Sequence[int]) -> str:
     return " ".join(str(first) if first == last else f"{first}-{last}" for first, last in pairs)
 
 
-def numbers_of(texts: Iterable[str]) -> list[int]:
+def parse_shards(texts: Iterable[str]) -> list[int]:
     """Return the shards in a list of numbers and spans (A-B), ascending and without repetition. Raises InputError."""
     numbers: set[int] = set()
     for text in texts:

@@ -71,7 +71,7 @@ class StoredBatch:
         return self.document.get("faults", [])
 
     @property
-    def strangers(self) -> int:
+    def foreign_traces(self) -> int:
         """Number of traces of other campaigns in the folder."""
         there = sum(len(trace_files(self.folder, variant)) for variant in self.variants)
         return there - sum(map(len, self.traced.values()))

@@ -37,7 +37,7 @@ from ..poles.plant import input_matrix, output_matrix, state_matrix
 from ..poles.results import OutputFeedback, PlacementError, Reason, StateFeedback
 from ..poles.smallest import polish
 from ..poles.spectrum import Spectrum
-from ..poles.zeroth_level import ZerothLevel, condition_of, under
+from ..poles.zeroth_level import ZerothLevel, condition_of, place_zeroth_level
 
 ROUTINE = "upper levels"
 _SOLVED = 1e-6  # residual of the equations, in units of the largest pole; Newton's method does the rest
@@ -127,7 +127,7 @@ def _best(family: UpperLevels, lower: Spectrum, draws: Iterator[np.ndarray]) -> 
     feedbacks = []
     for free in draws:
         try:
-            feedbacks.append(under(family.level, family.feedback(free), family.upper, lower))
+            feedbacks.append(place_zeroth_level(family.level, family.feedback(free), family.upper, lower))
         except PlacementError as error:
             refused = error
     if not feedbacks:

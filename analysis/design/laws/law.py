@@ -130,13 +130,13 @@ def _matrix(rows: object, file: str) -> Matrix:
             problem = f"row {row} has {actual} where {SIZE} are needed"
             raise InputError(file, "matrix", problem, f"give {SIZE} rows of {SIZE} integers")
         for column, entry in enumerate(entries, 1):
-            wrong = _wrong(row, column, entry)
+            wrong = _find_problem(row, column, entry)
             if wrong is not None:
                 raise InputError(file, f"matrix[{row},{column}]", *wrong)
     return tuple(tuple(entries) for entries in rows)
 
 
-def _wrong(row: int, column: int, entry: object) -> tuple[str, str] | None:
+def _find_problem(row: int, column: int, entry: object) -> tuple[str, str] | None:
     """Return what is wrong with a cell, and the remedy; rows and columns count from 1."""
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"

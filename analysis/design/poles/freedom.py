@@ -178,16 +178,16 @@ def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, 
     All starts descend on the first objective for some steps, the best of them on all objectives.
     """
     random = np.random.default_rng(seed)
-    first = [_down(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]
+    first = [_descend(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]
     minima = []
     for value, free in sorted(first, key=lambda end: end[0])[:_KEPT]:
         for objective in objectives:
-            value, free = _down(family, objective, free, *_FINE)
+            value, free = _descend(family, objective, free, *_FINE)
         minima.append((value, free))
     return min(minima, key=lambda end: end[0])[1]
 
 
-def _down(
+def _descend(
     family: Eigenvectors, objective: Objective, free: np.ndarray, slope: float, steps: int
 ) -> tuple[float, np.ndarray]:
     """Descend until the gradient is below ``slope``, or for ``steps`` steps; return value and parameters."""

@@ -118,7 +118,7 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     A pair needs a level of rank 2 or more for itself. Raises PlacementError.
     """
     levels = decompose(a, b, tolerance)
-    parts = spectrum.rank([level.rank for level in levels])
+    parts = spectrum.split_by_speed([level.rank for level in levels])
     if parts is None:
         ranks = ", ".join(str(level.rank) for level in levels)
         problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank {ranks}"

@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from ....common.errors import InputError, suggestion
 from .plant import input_matrix, output_matrix, state_matrix
 from .results import OutputFeedback, PlacementError, Reason
-from .smallest import smallest
+from .smallest import minimise_gain
 from .spectrum import Spectrum
-from .zeroth_level import ZerothLevel, direct, square
+from .zeroth_level import ZerothLevel, place_direct, place_square
 
 
 class DecomposedPlant(StrEnum):
@@ -79,7 +79,7 @@ def output_feedback(
         )
         remedy = "use the other method, or two real poles for a pair"
         raise PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
-    return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
+    return minimise_gain(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
 
 def _placements(
@@ -102,7 +102,9 @@ def _placements(
         named = None if upper is None else Spectrum.of(upper, size, "upper")
         for high, low in spectrum.splits(size) if named is None else [(named, spectrum.without(named))]:
             try:
-                placed = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
+                placed = (
+                    place_square(level, high, low, starts, seed) if level.is_exact else place_direct(level, high, low)
+                )
             except PlacementError as error:
                 refusals.append(error)
                 continue

@@ -24,7 +24,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))
     lying = list(zip(odd[0 : 2 * across : 2], odd[1 : 2 * across : 2], spectrum.pairs[:across], strict=True))
     rooms = [degree - any(j in (first, second) for first, second, _ in lying) for j, degree in enumerate(degrees)]
-    parts = Spectrum(spectrum.real, spectrum.pairs[across:]).deal(rooms)
+    parts = Spectrum(spectrum.real, spectrum.pairs[across:]).distribute(rooms)
     assert parts is not None  # pairs that do not fit use two elements
     coefficients = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
     for j, part in enumerate(parts):

@@ -46,7 +46,7 @@ def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray
     return best
 
 
-def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+def minimise_gain(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
     """Return the feedback of least |F| among ``feedbacks`` and the results of searches from them.
 
     Raises PlacementError for repeated poles, at which Newton's method has no derivative.
@@ -58,7 +58,7 @@ def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, 
             "output feedback", Reason.RANK, "repeated poles have no derivative", 0.0, "use choice least_norm"
         )
     starts = sorted(feedbacks, key=lambda one: one.norm)[:_STARTS]
-    return min((_from(start, a, b, c) for start in starts), key=lambda one: one.norm)
+    return min((_search_from(start, a, b, c) for start in starts), key=lambda one: one.norm)
 
 
 def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -74,7 +74,7 @@ def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.array(coefficients), np.array(adjugate[:-1])
 
 
-def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+def _search_from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
     """Return the end of successive searches, each from the last result, while it is in the set and smaller."""
     for _ in range(_ROUNDS):
         end = _search(start, a, b, c)

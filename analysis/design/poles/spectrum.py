@@ -34,7 +34,7 @@ class Spectrum:
         conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []
         for pole in [complex(pole) for pole in values if pole.imag > 0.0]:
-            partner = _take(conjugates, pole)
+            partner = _remove_nearest(conjugates, pole)
             if partner is None:
                 raise _alone(name, pole)
             pairs.append(0.5 * (pole + partner))
@@ -83,11 +83,11 @@ class Spectrum:
         """Return the spectrum without the poles of ``part``. Raises InputError for a missing pole."""
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
-            if _take(real if isinstance(pole, float) else pairs, pole) is None:
+            if _remove_nearest(real if isinstance(pole, float) else pairs, pole) is None:
                 raise InputError("modal", "upper", f"{pole:g} is not one of the poles", "name some of the poles")
         return Spectrum(tuple(real), tuple(pairs))
 
-    def deal(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+    def distribute(self, sizes: Sequence[int]) -> list[Spectrum] | None:
         """Deal the poles to groups of these ``sizes``, neighbours to different ones if possible.
 
         Pairs are dealt first. The groups take turns, those with most room first. Returns None if the pairs do not fit.
@@ -105,7 +105,7 @@ class Spectrum:
             room[index] -= 1
         return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
-    def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+    def split_by_speed(self, sizes: Sequence[int]) -> list[Spectrum] | None:
         """Split the poles into these ``sizes``, fastest first as far as pairs permit; return None if they do not.
 
         A pole goes to the first group that has room for it and leaves room for the pairs that follow.
@@ -129,7 +129,7 @@ class Spectrum:
         return len(self.pairs) <= sum(size // 2 for size in sizes)
 
 
-def _take(poles: list, pole: complex) -> complex | None:
+def _remove_nearest(poles: list, pole: complex) -> complex | None:
     """Remove the nearest pole from the list; return None if none is equal within rounding."""
     nearest = min(poles, key=lambda other: abs(other - pole), default=None)
     if nearest is None or abs(nearest - pole) > _CONJUGATE * abs(pole):

@@ -59,7 +59,7 @@ class ZerothLevel:
         self.above = self.down @ a @ self.down.T, self.down @ a @ b
 
     @property
-    def meets(self) -> bool:
+    def is_exact(self) -> bool:
         """True if m + p = n, so that the gain of the upper level determines the poles of the zeroth."""
         return self.b.shape[1] + len(self.c) == len(self.a)
 
@@ -83,15 +83,17 @@ class ZerothLevel:
         )
 
 
-def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
+def place_direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
     """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n.
 
     Raises PlacementError.
     """
-    return under(level, make_placement(*level.above, upper) if upper.size else None, upper, lower)
+    return place_zeroth_level(level, make_placement(*level.above, upper) if upper.size else None, upper, lower)
 
 
-def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
+def place_zeroth_level(
+    level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum
+) -> OutputFeedback:
     """Return the feedback of the zeroth level with the gain ``first`` on the upper one. Raises PlacementError."""
     inverse, x, y = level.lower_matrices(-first.gain if first else np.zeros((lower.size, 0)))
     condition = condition_of(x)
@@ -143,10 +145,10 @@ def output_feedback_levels(
     wanted = real_matrix("upper", upper, (size, size))
     first = place_levels(*level.above, [wanted], bases=[np.eye(size)])
     high = Spectrum.of(np.linalg.eigvals(wanted), size, "upper")
-    return under(level, first, high, Spectrum.of(poles, inputs.shape[1]))
+    return place_zeroth_level(level, first, high, Spectrum.of(poles, inputs.shape[1]))
 
 
-def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
+def place_square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
     """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p = n.
 
     Raises PlacementError.

@@ -47,7 +47,7 @@ def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (Non
     return matrix
 
 
-def tidy(matrix: Symbols) -> Symbols:
+def factor_elements(matrix: Symbols) -> Symbols:
     """Return the matrix with each element as a product of factors, equal elements alike, so that zeros are detected."""
     return matrix.applyfunc(_tidy)
 
@@ -76,12 +76,12 @@ def is_zero(expression: Expression) -> bool:
 def inverse_of(matrix: Symbols) -> Symbols | None:
     """Return the inverse for general values of the symbols, None if there is none."""
     determinant = _tidy(matrix.det(method="berkowitz"))
-    return None if determinant == 0 else tidy(matrix.adjugate() / determinant)
+    return None if determinant == 0 else factor_elements(matrix.adjugate() / determinant)
 
 
 def left_inverse(matrix: Symbols) -> Symbols:
     """Return the pseudo-inverse of a matrix with full column rank, (M' M)^-1 M'."""
-    return tidy(inverse_of(tidy(matrix.T * matrix)) * matrix.T)
+    return factor_elements(inverse_of(factor_elements(matrix.T * matrix)) * matrix.T)
 
 
 def powers(matrix: Symbols, start: Symbols, count: int) -> Iterable[Symbols]:
@@ -89,5 +89,5 @@ def powers(matrix: Symbols, start: Symbols, count: int) -> Iterable[Symbols]:
     row = start
     yield row
     for _ in range(count):
-        row = tidy(row * matrix)
+        row = factor_elements(row * matrix)
         yield row

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..poles.results import PlacementError, Reason
-from .algebra import Symbols, inverse_of, is_zero, powers, sympy, tidy
+from .algebra import Symbols, factor_elements, inverse_of, is_zero, powers, sympy
 
 
 def last_symbol_rows(a: Symbols, b: Symbols, formula: str) -> Symbols:
@@ -29,7 +29,7 @@ def ackermann_symbols(a: Symbols, b: Symbols, coefficients: Sequence[Symbols]) -
     """Return K = T A^p + sum N_i T A^i of u = -K x. Raises PlacementError."""
     rows = last_symbol_rows(a, b, "generalised Ackermann")
     *lower, top = powers(a, rows, len(coefficients))
-    return tidy(sum((n * row for n, row in zip(coefficients, lower, strict=True)), top))
+    return factor_elements(sum((n * row for n, row in zip(coefficients, lower, strict=True)), top))
 
 
 def bass_gura_symbols(a: Symbols, b: Symbols, coefficients: Sequence[Symbols]) -> Symbols:
@@ -38,5 +38,5 @@ def bass_gura_symbols(a: Symbols, b: Symbols, coefficients: Sequence[Symbols]) -
     rows = last_symbol_rows(a, b, "generalised Bass-Gura")
     *lower, top = powers(a, rows, len(coefficients))
     stack = sp.Matrix.vstack(*lower)
-    plant = tidy(-top * inverse_of(stack))
-    return tidy((sp.Matrix.hstack(*coefficients) - plant) * stack)
+    plant = factor_elements(-top * inverse_of(stack))
+    return factor_elements((sp.Matrix.hstack(*coefficients) - plant) * stack)

@@ -13,7 +13,7 @@ import mpmath
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from .algebra import Expression, Symbols, exact, matrix_of, sympy, tidy
+from .algebra import Expression, Symbols, exact, factor_elements, matrix_of, sympy
 from .formulas import ackermann_symbols, bass_gura_symbols
 from .kernel_text import kernel_text
 from .levels import assemble_symbols, symbolic_levels
@@ -110,7 +110,7 @@ def symbolic_gain(
         gain = formula(state, inputs, matrices)
     else:
         gain = -_multilevel(state, inputs, required, bases)
-    return SymbolicGain(str(method), gain, tidy(state - inputs * gain), "K")
+    return SymbolicGain(str(method), gain, factor_elements(state - inputs * gain), "K")
 
 
 def symbolic_observer(
@@ -138,17 +138,17 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
         given = [matrix_of(f"bases[{i}]", basis, (a.rows, None)) for i, basis in enumerate(bases)]
         turn = sp.Matrix.hstack(*given)
         sizes = [basis.cols for basis in given]
-        if turn.cols != a.rows or tidy(turn.T * turn) != sp.eye(a.rows):
+        if turn.cols != a.rows or factor_elements(turn.T * turn) != sp.eye(a.rows):
             raise InputError(
                 "modal", "bases", "together they are not an orthonormal basis of the state space", "orthonormalise them"
             )
-    levels = symbolic_levels(tidy(turn.T * a * turn), tidy(turn.T * b), sizes)
+    levels = symbolic_levels(factor_elements(turn.T * a * turn), factor_elements(turn.T * b), sizes)
     ranks = [level.rank for level in levels]
     matrices = _matrices(required, ranks)
     if matrices is None:
         poles = _poles(required, a.rows)
         matrices = [sp.diag(*poles[start:end]) for start, end in pairwise(accumulate(ranks, initial=0))]
-    return tidy(assemble_symbols(levels, matrices) * turn.T)
+    return factor_elements(assemble_symbols(levels, matrices) * turn.T)
 
 
 def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | None:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..poles.results import PlacementError, Reason
-from .algebra import Symbols, is_zero, left_inverse, sympy, tidy
+from .algebra import Symbols, factor_elements, is_zero, left_inverse, sympy
 
 
 @dataclass(frozen=True)
@@ -51,18 +51,18 @@ def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) 
                 raise PlacementError("multilevel placement", Reason.RANK, problem, float(rank), remedy)
             left, down = sp.eye(states)[:, :rank], sp.eye(states)[rank:, :]
         inverse = left_inverse(left)
-        spread = left_inverse(tidy(inverse * b).T).T
+        spread = left_inverse(factor_elements(inverse * b).T).T
         levels.append(SymbolicLevel(a, inverse, spread, down, rank))
         if rank == states:
             return levels
         up = left_inverse(down.T).T
-        a, b = tidy(down * a * up), tidy(down * a * left)
+        a, b = factor_elements(down * a * up), factor_elements(down * a * left)
 
 
 def assemble_symbols(levels: Sequence[SymbolicLevel], required: Sequence[Symbols]) -> Symbols:
     """Return K of u = K x for Phi_i = ``required``, level 0 first."""
     gain = None
     for level, phi in zip(reversed(levels), reversed(required), strict=True):
-        inverse = level.inverse if gain is None else tidy(level.inverse - gain * level.down)
-        gain = tidy(level.spread * (phi * inverse - inverse * level.a))
+        inverse = level.inverse if gain is None else factor_elements(level.inverse - gain * level.down)
+        gain = factor_elements(level.spread * (phi * inverse - inverse * level.a))
     return gain

@@ -80,7 +80,7 @@ class Search:
             state.generation += 1
             if not self.is_over and state.generation % self.settings.renewal == 0:
                 self._renew()
-        self._note()
+        self._add_to_history()
 
     def _start(self) -> None:
         """Evaluate the first population: the basic solution as encoded and, unless it suffices, others around it."""
@@ -123,10 +123,10 @@ class Search:
             for child in children
         ]
         for candidate in self._evaluate(grown, bar):
-            if not bar.rejects(candidate.evaluation.objectives) and self._let_in(candidate, order):
+            if not bar.rejects(candidate.evaluation.objectives) and self._insert(candidate, order):
                 order = ParetoOrder(objectives_of(self.state.population))
 
-    def _let_in(self, candidate: Candidate, order: ParetoOrder) -> bool:
+    def _insert(self, candidate: Candidate, order: ParetoOrder) -> bool:
         """Replace the worst member by a candidate, unless that is no better or has the objectives of another member."""
         point = np.array(candidate.evaluation.objectives)
         worst = order.worst()
@@ -171,10 +171,10 @@ class Search:
         candidates = [Candidate(each, key, state.known[key]) for each, key in zip(genes, keys, strict=True)]
         for candidate in candidates:
             if bar is None or not bar.rejects(candidate.evaluation.objectives):
-                self._watch(candidate)
+                self._update_best(candidate)
         return candidates
 
-    def _watch(self, candidate: Candidate) -> None:
+    def _update_best(self, candidate: Candidate) -> None:
         """Update the Pareto set of all candidates, and the one with most successes."""
         state, evaluation = self.state, candidate.evaluation
         point = np.array(evaluation.objectives)
@@ -195,7 +195,7 @@ class Search:
             state.champion = candidate
         state.succeeded |= self.settings.stop and evaluation.successes == self.evaluator.trials
 
-    def _note(self) -> None:
+    def _add_to_history(self) -> None:
         """Add an entry to the history."""
         state = self.state
         assert state.champion is not None

@@ -117,11 +117,11 @@ def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
             problem = f"{component} is an FMU {fmus[component].name}, which has no parameter {name}"
             raise InputError(*where, problem, 'name the FMU of a network operator with fmu = "..."')
     prepared = check_plan(plan)[VARIANT]
-    _rehearse(synthesis, plan)
+    _simulate_basic_law(synthesis, plan)
     return prepared
 
 
-def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
+def _simulate_basic_law(synthesis: Synthesis, plan: BatchPlan) -> None:
     """Simulate the basic solution once: a system that fails with it would fail with every law."""
     flyer = Flyer(plan)
     try:

@@ -44,7 +44,7 @@ class PointMassPath:
         return -math.expm1(self.log_mass[-1])
 
     @property
-    def looseness(self) -> float:
+    def slack(self) -> float:
         """Largest s - |u| (m/s2); if it is near 0, the convex form solves the original problem."""
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 

@@ -60,7 +60,7 @@ class _BoundReader(AnnotationReader):
         if START in names:
             loaded = {fmu.label: fmu for fmu in prepared.network.fmus.values()}
             options = prepared.options
-            options = options.but(parameters=(*options.parameters, names[START]))
+            options = options.replace(parameters=(*options.parameters, names[START]))
             prepared = prepare_system(prepared.archive, options, loaded)
         inputs: dict[str, float | tuple[float, ...]] = {}
         for role in VECTORS:

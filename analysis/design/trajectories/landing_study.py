@@ -79,4 +79,4 @@ def landing_study(
         for name, (part, mass) in (pieces or {}).items():
             cut[name] = least_propellant(part, count).propellant_fraction * mass
             progress.update()
-    return LandingStudy(vehicle, landing, path.make_path(problem), path.looseness, check, cut)
+    return LandingStudy(vehicle, landing, path.make_path(problem), path.slack, check, cut)

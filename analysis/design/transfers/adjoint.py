@@ -104,9 +104,9 @@ class AdjointSolution:
         rms, largest = (math.degrees(angle) for angle in self.tangent_residual)
         first, last = self.reversals
         return {
-            "time_s": _ends(self.time).tolist(),
-            "costates": _ends(self.costates).tolist(),
-            "switching_function": _ends(self.switching).tolist(),
+            "time_s": _interval_ends(self.time).tolist(),
+            "costates": _interval_ends(self.costates).tolist(),
+            "switching_function": _interval_ends(self.switching).tolist(),
             "tangent_law_s": list(self.singular_span) if has_arc else None,
             "tangent_law_deg": {"rms": rms, "largest": largest} if has_arc else None,
             "switching_function_zeros_s": self.switching_times,
@@ -149,8 +149,8 @@ def integrate_adjoint(optimum: OptimalPath, vehicle: Vehicle, transfer: Transfer
     psi[:, :, 5] = _integrate_back(end[5], across * thrust / ratio, span)
     psi[:, :, 6] = _integrate_back(end[6], -psi[:, :, 5], span)
 
-    velocity = [_through(optimum.velocity[:, 0], thrust * np.cos(pitch) / ratio, span),
-                _through(optimum.velocity[:, 1], lift - transfer.gravity, span)]  # fmt: skip
+    velocity = [_integrate(optimum.velocity[:, 0], thrust * np.cos(pitch) / ratio, span),
+                _integrate(optimum.velocity[:, 1], lift - transfer.gravity, span)]  # fmt: skip
     switching = along * full / ratio + psi[:, :, 4]
     hamiltonian = switching * thrust / full + psi[:, :, 6] * swing - psi[:, :, 3] * transfer.gravity
     hamiltonian += psi[:, :, 0] * velocity[0] + psi[:, :, 2] * velocity[1] + psi[:, :, 5] * (rate + swing * since)
@@ -181,12 +181,12 @@ def _integrate_back(end: float, derivative: np.ndarray, span: float) -> np.ndarr
     return end - later[:, np.newaxis] - to_end
 
 
-def _through(ends: np.ndarray, derivative: np.ndarray, span: float) -> np.ndarray:
+def _integrate(ends: np.ndarray, derivative: np.ndarray, span: float) -> np.ndarray:
     """Return a function at all nodes from its derivative there and its values at the ends of all intervals."""
     return ends[1:, np.newaxis] - span * derivative @ INTEGRALS.T
 
 
-def _ends(rows: np.ndarray) -> np.ndarray:
+def _interval_ends(rows: np.ndarray) -> np.ndarray:
     """Return the first node of each interval and the last of all."""
     return np.concatenate([rows[:, 0], rows[-1:, -1]])
 

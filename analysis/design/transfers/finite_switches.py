@@ -69,7 +69,7 @@ def find_finite_switches(near: Programme) -> FiniteProfile | None:
     def conditions(z: np.ndarray) -> np.ndarray:
         end = end_of_profile(z, vehicle, transfer.gravity)
         residual = (end - [transfer.distance, 0.0, -transfer.descent, 0.0]) / [FAR, FAST, FAR, FAST]
-        return np.concatenate([_gaps(z, swing), residual])
+        return np.concatenate([_find_discontinuities(z, swing), residual])
 
     z = minimise(cost, conditions, guess, [0.0] * 5 + [-math.inf, -math.inf, 1e-3] + [0.0] * 3)
     if z is None or not _is_ordered(z):
@@ -123,7 +123,7 @@ def _propellant(z: np.ndarray, vehicle: Vehicle) -> float:
     return float((vehicle.least * z[4] + (vehicle.full - vehicle.least) * full) / vehicle.exhaust_speed)
 
 
-def _gaps(z: np.ndarray, swing: float) -> np.ndarray:
+def _find_discontinuities(z: np.ndarray, swing: float) -> np.ndarray:
     """Return the discontinuities of pitch and of its rate where the tangent law begins and ends."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     before = swing * ((t3 - t2) ** 2 / 2.0 - t2**2 / 4.0), swing * (t3 - t2)

@@ -19,7 +19,7 @@ from ..trajectories.vehicle import Margins, Transfer, Vehicle
 from .adjoint import AdjointSolution, integrate_adjoint
 from .finite_switches import FiniteProfile, find_finite_switches
 from .free_fall import FreeFallProgramme, find_free_fall
-from .programme import Programme, find_programme, over_distance, over_duration
+from .programme import Programme, find_programme, sweep_distance, sweep_duration
 from .true_optimum import find_true_optimum
 
 OPTIMUM_INTERVALS = 320
@@ -79,8 +79,8 @@ class HoverStudy:
             programme = find_programme(programme.vehicle, self.transfer) or programme
         return replace(
             self,
-            durations=PropellantCurve(*over_duration(programme)),
-            distances=PropellantCurve(*over_distance(programme)),
+            durations=PropellantCurve(*sweep_duration(programme)),
+            distances=PropellantCurve(*sweep_distance(programme)),
         )
 
     @property
@@ -132,9 +132,9 @@ def hover_study(
         progress.update(optimum)
         bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
         progress.update(bound)
-        durations = PropellantCurve(*over_duration(best)) if curves else None
+        durations = PropellantCurve(*sweep_duration(best)) if curves else None
         progress.update(curves)
-        farther = PropellantCurve(*over_distance(best)) if curves else None
+        farther = PropellantCurve(*sweep_distance(best)) if curves else None
         progress.update(curves)
     return HoverStudy(
         vehicle=vehicle,

@@ -118,7 +118,7 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
     return Programme(vehicle, transfer, PlanKind.meanings[planned.kind], planned.programme)
 
 
-def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
+def sweep_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
     """Return durations (s) around the best programme's and the propellant fraction of each, nan without one."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
@@ -126,7 +126,7 @@ def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
     return durations, _fractions(programmes)
 
 
-def over_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
+def sweep_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
     """Return distances (m) from straight down to beyond the programme's, and the least propellant fraction of each."""
     farthest, count = DISTANCES
     wide = farthest * max(best.transfer.distance, 0.2 * best.transfer.descent)

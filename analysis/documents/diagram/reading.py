@@ -21,7 +21,7 @@ from ...runtime.ssp.description import (
 )
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.ssp.names import split_name
-from ...runtime.system.flattening import orient
+from ...runtime.system.flattening import find_direction
 from ...runtime.system.network import Node
 from ...runtime.system.prepared import PreparedSystem
 from ..common.quantities import declared_unit
@@ -57,7 +57,7 @@ class _GraphReader:
         for connection in system.connections:
             for start in (connection.start, *connection.added):
                 single = replace(connection, start=start, added=())
-                (source, source_node), (target, target_node) = orient(self.network, path, system, single)
+                (source, source_node), (target, target_node) = find_direction(self.network, path, system, single)
                 is_parameter = target_node.kind in PARAMETERS
                 ends = (
                     self.key(block, inner, source, source_node, Side.OUT),

@@ -8,7 +8,7 @@ from dataclasses import replace
 from lxml import etree
 
 from ....common.errors import suggestion
-from ...runtime.flight.program import layout_of
+from ...runtime.flight.program import make_layout
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.conversions import Unit
 from ...runtime.ssp.names import elements, split_name
@@ -34,7 +34,7 @@ class SignalReader(AnnotationReader):
         self.prepared = prepared
         self.network = prepared.network
         self.substituted = prepared.options.use
-        self.types = layout_of(prepared.network, prepared.settings).types
+        self.types = make_layout(prepared.network, prepared.settings).types
         self.notes: list[str] = []
 
     def title(self, element: etree._Element, otherwise: str) -> str:
@@ -212,7 +212,7 @@ class SignalReader(AnnotationReader):
         declared = signal.unit
         if declared is None and unit is None:
             return signal
-        if declared is None or unit is None or not declared.fits(unit):
+        if declared is None or unit is None or not declared.is_convertible(unit):
             actual, required = (each.name if each is not None else "none" for each in (declared, unit))
             problem = f"{what}: its unit is {actual}, required is {required}"
             raise self.signal_error(element, signal.label, problem, "correct the unit, or name another signal")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from ....common.visible import first_ones, on_one_line
+from ....common.visible import limit_lines, on_one_line
 from ...evidence.comparison import SignalCheck
 from ...evidence.reproduction import Reproduction
 from ...evidence.verification import Verification
@@ -76,7 +76,7 @@ def _problems(verification: Verification) -> list[str]:
         where = f"{verification.file}: {made.name}"
         problems += [f"{where}: {problem}" for problem in made.problems]
         wrong = [_difference(each) for each in made.signals if not each.met]
-        problems += [f"{where}: {line}" for line in first_ones(wrong, NAMED, "signals")]
+        problems += [f"{where}: {line}" for line in limit_lines(wrong, NAMED, "signals")]
     return problems
 
 

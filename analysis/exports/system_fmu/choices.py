@@ -78,7 +78,7 @@ class Preparation:
         """
         options = self.options
         parameters = (*options.parameters, *more)
-        changed = options.but(
+        changed = options.replace(
             use={**options.use, **use},
             parameters=parameters,
             set=self._values_for(use),
@@ -88,7 +88,7 @@ class Preparation:
         inputs = [name for name in system_connectors(prepared.network, "input") if name not in prepared.settings.nodes]
         for start_of in (_no_start, _start_of) if inputs else ():  # inputs with a value remain connected
             starts = {name: start_of(prepared.network, name) for name in inputs}
-            prepared = self._prepare(changed.but(set={**starts, **changed.set}))
+            prepared = self._prepare(changed.replace(set={**starts, **changed.set}))
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
         return SlotChoice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 

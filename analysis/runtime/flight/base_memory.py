@@ -35,11 +35,11 @@ class BaseMemory(ABC, Generic[Snapshot]):
         """Return the current values of all cells, in their order."""
 
     @abstractmethod
-    def take(self, point: int) -> Snapshot:
+    def save(self, point: int) -> Snapshot:
         """Save the complete memory at communication point ``point``. Free it with `release`."""
 
     @abstractmethod
-    def put_back(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
+    def restore(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
         """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
 
     @abstractmethod

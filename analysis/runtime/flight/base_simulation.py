@@ -45,7 +45,7 @@ class Choices(TypedDict, total=False):
 class BaseSimulation(ABC):
     """System that can be simulated repeatedly. A context manager: leaving it frees the instances.
 
-    Only `interrupt` and `give_up` may be called from another thread. Raises InputError for names that the system does
+    Only `interrupt` and `abort` may be called from another thread. Raises InputError for names that the system does
     not have.
     """
 
@@ -105,7 +105,7 @@ class BaseSimulation(ABC):
         return
 
     @abstractmethod
-    def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
+    def queue_run(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """Announce the values and faults of a coming `run`, which may let it start earlier; at most two are pending.
 
         The first announcement leaves the arrays of the last flight intact, the second may overwrite them.
@@ -141,7 +141,7 @@ class BaseSimulation(ABC):
         self.recorder.halt[0] = halt
 
     @abstractmethod
-    def give_up(self, why: str) -> bool:
+    def abort(self, why: str) -> bool:
         """End a simulation in another thread that reaches no communication point; return False if impossible."""
 
     @abstractmethod

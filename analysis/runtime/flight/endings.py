@@ -109,7 +109,7 @@ def end_request(instance: Instance) -> float | None:
     return None
 
 
-def in_words(
+def describe_outcome(
     outcome: Outcome,
     time: float,
     layout: Layout,
@@ -164,7 +164,7 @@ def in_words(
     return status, ""
 
 
-def ended_in_words(
+def describe_termination(
     time: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> tuple[str, str]:
     """Return status and message of a simulation that an FMU ended at ``time`` (s) during its step from begin to end.

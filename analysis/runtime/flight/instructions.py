@@ -85,17 +85,17 @@ class InstructionList(InstructionRows):
             for start, source, target in texts.connections[component]:
                 if known is None or start in known:
                     self.rows.append([code, source, 0, target, 1, component, 0])
-        self.orders[component].take_bases()
+        self.orders[component].reset_bases()
         begun = len(self.rows)
         self.drive(component, started=known is None)
         self.connect(component, known)
         self.orders[component].set(begun, started=known is None)
 
-    def carry(self, component: int) -> None:
+    def write_input_slots(self, component: int) -> None:
         """Write connected values and faults to the input slots of a component, without a call of its FMU."""
-        self.orders[component].take_bases()
+        self.orders[component].reset_bases()
         self.connect(component)
-        self.orders[component].carry()
+        self.orders[component].apply_input_faults()
 
     def get(self, component: int) -> None:
         """Get the outputs of a component at the end of its step."""
@@ -136,21 +136,21 @@ class InstructionList(InstructionRows):
         for component in range(len(self.orders)):
             self.read(component)  # again: some FMUs compute outputs only when they leave initialisation
 
-    def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
+    def step_jacobi(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Step all components with their current inputs, then read all outputs (Jacobi's method)."""
         for component in components:
             self.step(component, periods.get(component, 1))
         for component in components:
             self.read(component)
 
-    def in_turn(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
+    def step_gauss_seidel(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Step each component with inputs from the end of its step."""
         for component in components:
             self.set(component)
             self.step(component, periods.get(component, 1))
             self.read(component)
 
-    def hand_over(self, components: Sequence[int]) -> None:
+    def finish_point(self, components: Sequence[int]) -> None:
         """Write the end of a communication point: set the inputs for the next step and the system connectors."""
         for component in components:
             self.set(component)
@@ -174,15 +174,15 @@ def write_instructions(
     instructions.initialise([index[name] for name in schedule.initial_order])
     instructions.drive(-1, started=True)
     instructions.between_steps = True
-    instructions.hand_over(ahead)
+    instructions.finish_point(ahead)
     ends = [instructions.end_part()]
     lengths = {index[name]: period for name, period in periods.items()}
     for part in range(math.lcm(*lengths.values())):
         due = [component for component in ahead if (part + 1) % lengths.get(component, 1) == 0]
         instructions.drive(-1, started=True)
-        instructions.side_by_side(due, lengths)
-        instructions.in_turn([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
-        instructions.hand_over(due)
+        instructions.step_jacobi(due, lengths)
+        instructions.step_gauss_seidel([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
+        instructions.finish_point(due)
         ends.append(instructions.end_part())
     instructions.between_steps = False
     return instructions.array(), reset_end, np.array(ends, dtype=np.int64)
@@ -205,7 +205,7 @@ def write_renewal(
     for component in _ahead(names, schedule, algorithm):
         instructions.begin()
         if part % periods.get(names[component], 1) == 0:
-            instructions.orders[component].take_bases()
+            instructions.orders[component].reset_bases()
             instructions.connect(component, {-1})
         if instructions.rows:
             renewed[component] = instructions.array()
@@ -222,6 +222,6 @@ def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
     instructions.begin()
     instructions.read(component)
     for other in range(len(instructions.orders)):
-        instructions.carry(other)
+        instructions.write_input_slots(other)
     instructions.connect(-1)
     return instructions.array()

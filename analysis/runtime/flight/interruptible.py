@@ -33,7 +33,7 @@ def fly(simulation: BaseSimulation, timeout: float | None = None) -> FlightResul
     StuckError if no communication point is reached within PATIENCE, since the step of an FMU cannot be interrupted.
     """
     work = partial(_within, simulation, timeout, simulation.fly)
-    return wait(work, simulation.interrupt, partial(simulation.give_up, "was interrupted"))
+    return wait(work, simulation.interrupt, partial(simulation.abort, "was interrupted"))
 
 
 def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
@@ -41,7 +41,7 @@ def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeou
     return _within(simulation, timeout, partial(simulation.run, values))
 
 
-def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
+def make_empty_flight(simulation: BaseSimulation, message: str) -> Flight:
     """Return a flight without rows, for a simulation whose step did not return and whose rows are lost."""
     nothing = np.empty(0)
     types = {name: simulation.layout.types[name] for name in simulation.signal_names}
@@ -61,7 +61,7 @@ def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[]
         flight = future.result(timeout=PATIENCE)
     except TimeoutError:
         late = f"did not return {PATIENCE:g} s after its time limit of {timeout:g} s"
-        if not simulation.give_up(late):
+        if not simulation.abort(late):
             where = progress_text(simulation.prepared, simulation.recorder)
             raise StuckError(f"an FMU {late}, {where}") from None
         flight = future.result()
@@ -85,7 +85,7 @@ def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
     return f"on the way to t = {time:g} s, the last to step was {list(prepared.network.fmus)[recorder.subject]}"
 
 
-def wait(work: Callable[[], T], interrupt: Callable[[], None], give_up: Callable[[], object]) -> T:
+def wait(work: Callable[[], T], interrupt: Callable[[], None], abort: Callable[[], object]) -> T:
     """Return the result of ``work``, executed in a thread; on Ctrl-C interrupt it, and give up after PATIENCE.
 
     Outside the main thread, the only one to receive Ctrl-C, ``work`` is executed directly.
@@ -101,7 +101,7 @@ def wait(work: Callable[[], T], interrupt: Callable[[], None], give_up: Callable
         try:
             return future.result(timeout=PATIENCE)
         except TimeoutError:
-            give_up()
+            abort()
             raise KeyboardInterrupt from None
 
 

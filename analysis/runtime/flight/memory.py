@@ -27,7 +27,7 @@ REMEMBERED = ("local", "output", "input")
 
 @dataclass
 class Snapshot:
-    """State saved by `Memory.take`."""
+    """State saved by `Memory.save`."""
 
     point: int  # communication point
     states: dict[str, object]  # fmi2FMUstate by component
@@ -106,7 +106,7 @@ class Memory(BaseMemory[Snapshot]):
         parts = [piece.read() for piece in self._pieces]
         return np.concatenate([*parts, self._buffers.values[self._slots]])
 
-    def take(self, point: int) -> Snapshot:
+    def save(self, point: int) -> Snapshot:
         """Save the complete memory at communication point ``point``. Free it with `release`."""
         states, serialized = {}, {}
         for component, instance in self._instances.items():
@@ -118,7 +118,7 @@ class Memory(BaseMemory[Snapshot]):
             point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), stored
         )
 
-    def put_back(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
+    def restore(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
         """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
         for component, instance in self._instances.items():
             instance.set_state(snapshot.states[component])

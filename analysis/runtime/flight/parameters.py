@@ -15,7 +15,7 @@ from ..ssp.given_values import ParameterValue, parse_value
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
 from ..system.passing.settings import SystemSettings
-from .orders.transfers import ComponentTransfers, TransferTable, whole
+from .orders.transfers import ComponentTransfers, TransferTable, select_arrays
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
@@ -60,7 +60,7 @@ class Parameters:
                 self.transfers[index] = self._place_transfers(component, fmu, given[component])
                 continue
             grades = {
-                name: self._grade(component, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
+                name: self._classify(component, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
                 for name in given[component]
             }
             for kind in range(4):
@@ -90,7 +90,7 @@ class Parameters:
         """Return the transfers of a component of FMI 3.0, in which arrays are set as a whole."""
         transfers = ComponentTransfers()
         arrays_of: dict[str, list[ScalarVariable]] = {}
-        for variable in whole(fmu.variables.values(), set(given)):
+        for variable in select_arrays(fmu.variables.values(), set(given)):
             arrays_of.setdefault(variable.array or variable.name, []).append(variable)
         for elements in arrays_of.values():
             first, dtype = len(self.keys), elements[0].representation.dtype
@@ -106,7 +106,7 @@ class Parameters:
                 transfers.structural.append(transfer)
                 transfers.back.append(transfer)
                 continue
-            grade = max(self._grade(component, each, driven=driven) for each in elements)
+            grade = max(self._classify(component, each, driven=driven) for each in elements)
             transfers.before.append(transfer)
             if grade <= 1 and fmu.digest not in _set_once:
                 transfers.repeated.append(transfer)
@@ -114,7 +114,7 @@ class Parameters:
                 transfers.back.append(transfer)
         return transfers
 
-    def _grade(self, component: str, variable: ScalarVariable, *, driven: bool) -> int:
+    def _classify(self, component: str, variable: ScalarVariable, *, driven: bool) -> int:
         """Return the treatment of a parameter: 0, 1 or 2.
 
         - 0: set again in initialisation mode, and read back

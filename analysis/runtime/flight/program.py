@@ -58,27 +58,27 @@ def build_program(
     instances: Mapping[str, Callee],
     wanted: Collection[str] | None,
     injections: Sequence[Injection],
-    more: Collection[str] = (),
+    additional: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
     """Return the loop's arrays, those for FMI 3.0 or None, the writer of instructions, and the layout.
 
-    ``wanted`` names the signals to record (None: all exchanged ones), ``more`` further ones. Outputs are read only if
-    they are connected or recorded, other variables only if they are named.
+    ``wanted`` names the signals to record (None: all exchanged ones), ``additional`` further ones. Outputs are read
+    only if they are connected or recorded, other variables only if they are named.
     """
-    builder = _Builder(prepared.network, settings, wanted, injections, more)
+    builder = _Builder(prepared.network, settings, wanted, injections, additional)
     program, instructions = builder.program(prepared, instances)
     return program, builder.fmi3(instances), instructions, builder.layout()
 
 
-def layout_of(
+def make_layout(
     network: Network,
     settings: SystemSettings,
     wanted: Collection[str] | None = None,
     injections: Sequence[Injection] = (),
-    more: Collection[str] = (),
+    additional: Collection[str] = (),
 ) -> Layout:
     """Return the layout of a simulation without building its program; arguments as for `build_program`."""
-    return _Builder(network, settings, wanted, injections, more).layout()
+    return _Builder(network, settings, wanted, injections, additional).layout()
 
 
 class _Builder:
@@ -88,14 +88,14 @@ class _Builder:
         settings: SystemSettings,
         wanted: Collection[str] | None,
         injections: Sequence[Injection],
-        more: Collection[str],
+        additional: Collection[str],
     ) -> None:
         self.network = network
         self.injections = injections
         self.names = list(network.fmus)
         self.signals = Slots(settings)
         self.slots = self.signals.numbers
-        self.exchanged = Exchanged(network, wanted, more, injections)
+        self.exchanged = Exchanged(network, wanted, additional, injections)
         self.table = TransferTable()
         self.component_slots: dict[int, ComponentSlots] = {}  # by components of FMI 2.0
         self.transfers: dict[int, ComponentTransfers] = {}  # by components of FMI 3.0
@@ -112,7 +112,7 @@ class _Builder:
 
     def _place_system_connectors(self, settings: SystemSettings) -> None:
         for node in self.network.nodes.values():
-            known = self.exchanged.is_given(node.name) or node.name in settings.nodes
+            known = self.exchanged.is_set(node.name) or node.name in settings.nodes
             is_signal = node.kind not in PARAMETERS or node.name in self.exchanged.passed_parameters
             if node.component is None and is_signal and known and node.type_name not in TEXTS:
                 unit = node.unit.name if node.unit else None

@@ -28,13 +28,13 @@ class Selection:
     """Selection of variable parameters and recorded signals.
 
     ``varied`` names the parameters (``component.variable``) that may change between simulations; ``wanted`` the signals
-    to record (None: all outputs, connected inputs and system connectors); ``more`` further variables to record;
+    to record (None: all outputs, connected inputs and system connectors); ``additional`` further variables to record;
     ``excited`` the connectors to which `advance` may add signals. With ``open_end``, `advance` may pass the stop time.
     """
 
     varied: tuple[str, ...] = ()
     wanted: tuple[str, ...] | None = None
-    more: tuple[str, ...] = ()
+    additional: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
     excited: tuple[str, ...] = ()
     open_end: bool = False
@@ -71,7 +71,7 @@ class Selection:
 
     def signal_names(self, layout: Layout, file: str) -> list[str]:
         """Return the names of the recorded signals in the order of slots. Raises InputError for an unknown name."""
-        named = {*(self.wanted or ()), *self.more}
+        named = {*(self.wanted or ()), *self.additional}
         for name in named:
             if name not in layout.slots:
                 raise InputError(file, name, "no such signal", "name a variable as component.variable")

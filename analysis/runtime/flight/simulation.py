@@ -22,7 +22,7 @@ from ..system.namesakes.namesakes import note_loaded
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_simulation import NOTHING, BaseSimulation, Choices
-from .endings import STATUS, TERMINATED, Outcome, end_request, ended_in_words, in_words
+from .endings import STATUS, TERMINATED, Outcome, describe_outcome, describe_termination, end_request
 from .group import FlightGroup, flights_in_group, group_of
 from .instructions import write_ending
 from .life_cycle import LifeCycle
@@ -62,7 +62,7 @@ class Simulation(BaseSimulation):
             self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
         injections = self._selection.injections(prepared.step)
         self.program, self.fmi3, self._instructions, self.layout = build_program(
-            prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.more
+            prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.additional
         )
         self.set_faults(self._faults)
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
@@ -95,7 +95,7 @@ class Simulation(BaseSimulation):
     def fuse(self) -> None:
         """See `BaseSimulation.fuse`. Raises InputError if the compiler rejects the steps or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
-            fused = replace(self.prepared, options=self.prepared.options.but(flavour=FUSED))
+            fused = replace(self.prepared, options=self.prepared.options.replace(flavour=FUSED))
             with self.loop.under_way:  # prevents `close` while the instances are read
                 self.fused_steps = self._fuse(fused)
             self.prepared = fused
@@ -105,10 +105,10 @@ class Simulation(BaseSimulation):
         self.program = self.program._replace(finished_slot=-1)
         self.fused_steps = self._fuse(self.prepared)
 
-    def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
+    def queue_run(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
         """No-op: in-process simulations use the calling thread."""
 
-    def give_up(self, _why: str) -> bool:
+    def abort(self, _why: str) -> bool:
         """Return False: a thread cannot be ended."""
         return False
 
@@ -118,9 +118,9 @@ class Simulation(BaseSimulation):
         Elements of partly connected arrays and parameters that change during simulation are set at each step, too.
         """
         super().set(values)
-        self._give_unfed()
+        self._initialise_unfed()
 
-    def _give_unfed(self) -> None:
+    def _initialise_unfed(self) -> None:
         """Initialise elements of partly connected arrays, and unchanged values, with the current parameters."""
         for key, slot in self.layout.bases.items():
             if key in self.layout.parameters:
@@ -166,7 +166,7 @@ class Simulation(BaseSimulation):
         recorder.reserve(self._recorded.size, rows_between(first, last, every), prepared.step)
         recorder.enter(FmuActivity.FLIGHT)
         for instance in self.instances.values():
-            instance.said.clear()
+            instance.raw_messages.clear()
         count = self.loop.fly(self._run(first, last, every, reset, excitation))
         outcome = Outcome(*self.buffers.outcome.tolist())
         if self._has_learned(outcome):
@@ -194,7 +194,7 @@ class Simulation(BaseSimulation):
         recorder.reserve(signals, rows * table.flights, prepared.step)
         recorder.enter(FmuActivity.FLIGHT)
         for instance in self.instances.values():
-            instance.said.clear()  # normal ends are not reported
+            instance.raw_messages.clear()  # normal ends are not reported
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
         flown = self.loop.fly_group(self._run(-1, prepared.steps, 1, reset, NOTHING), group)
         ends = group.ends[:flown]
@@ -214,7 +214,7 @@ class Simulation(BaseSimulation):
         prepared, recorder = self.prepared, self.recorder
         recorder.enter(FmuActivity.IDLE)
         self.life_cycle.note(outcome, self.program)
-        status, message = in_words(
+        status, message = describe_outcome(
             outcome,
             prepared.start + outcome.point * prepared.step,
             self.layout,
@@ -228,7 +228,7 @@ class Simulation(BaseSimulation):
             if time is not None:
                 last = prepared.start + outcome.point * prepared.step
                 begin = last - prepared.periods.get(component, 1) * prepared.step
-                status, message = ended_in_words(time, begin, last, outcome.subject, self.instances)
+                status, message = describe_termination(time, begin, last, outcome.subject, self.instances)
                 if status == TERMINATED:
                     self._fly_last_row(outcome.subject, time, end)
                     end += 1
@@ -302,7 +302,7 @@ class Simulation(BaseSimulation):
         self.instances = {}
         self._instantiate()
         self.layout.parameters.update({key: retained[key] for key in retained.keys})
-        self._give_unfed()
+        self._initialise_unfed()
 
     def memory(self) -> Memory:
         """Return the memory of the FMUs. Raises InputError if one does not describe its serialised state."""

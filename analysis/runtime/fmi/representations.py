@@ -24,17 +24,17 @@ class Representation(NamedTuple):
         """True if it has integers that a float64 cannot represent."""
         return self.dtype in ("int64", "uint64")
 
-    def complaint(self) -> str:
+    def describe_problem(self) -> str:
         """Return the predicate of the error message for a number out of range."""
         return "has more than 32 bits" if self.name == "Int32" else f"is not of type {self.name}"
 
-    def demand(self) -> str:
+    def describe_range(self) -> str:
         """Return the permitted integers as text, the object of a sentence."""
         low, high = self.limits
         return "a whole number of 32 bits" if self.name == "Int32" else f"a whole number from {low} to {high}"
 
 
-def _whole(name: str) -> Representation:
+def _make_integer(name: str) -> Representation:
     dtype = name.lower()
     limits = np.iinfo(dtype)
     return Representation(name, "Integer", dtype, (int(limits.min), int(limits.max)))
@@ -46,7 +46,7 @@ REPRESENTATIONS = {
     for each in (
         Representation("Float64", "Real", "float64"),
         Representation("Float32", "Real", "float32", (-SINGLE, SINGLE)),
-        *map(_whole, ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")),
+        *map(_make_integer, ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")),
         Representation("Boolean", "Boolean", "bool", (0, 1)),
         Representation("String", "String", ""),
         Representation("Binary", "Binary", ""),

@@ -88,7 +88,7 @@ class Instance:
     name: str
     library: Library
     slave: Slave
-    said: list[bytes]
+    raw_messages: list[bytes]
     log: Log | None = None
     uses_events: bool = False
     is_there: bool = True
@@ -106,7 +106,7 @@ class Instance:
     @property
     def messages(self) -> list[str]:
         """Messages of the FMU since the current simulation began."""
-        return [_text(message) for message in self.said]
+        return [_text(message) for message in self.raw_messages]
 
     def function_addresses(self) -> list[int]:
         """Return the addresses of the C functions, in the order of `library.FUNCTION_NAMES`."""
@@ -166,34 +166,39 @@ class Instance:
     def renew(self) -> None:
         """Instantiate the FMU again, in place of the freed instance. Raises InputError."""
         fresh = instantiate(self.fmu, self.name, self.log, uses_events=self.uses_events)
-        self.library, self.slave, self.said, self.is_there = fresh.library, fresh.slave, fresh.said, True
+        self.library, self.slave, self.raw_messages, self.is_there = (
+            fresh.library,
+            fresh.slave,
+            fresh.raw_messages,
+            True,
+        )
 
 
 Listener = Callable[[int, str, str], None]  # fmi2Status, category, message
 
 
-class _Heard(list[bytes]):
+class _MessageLog(list[bytes]):
     """Messages of an FMU in order of arrival, with an additional listener."""
 
     listener: Listener | None = None
 
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
-_logs: dict[str, _Heard] = {}
-_environments: dict[int, _Heard] = {}  # likewise for FMI 3.0, by the pointer passed to instances
+_logs: dict[str, _MessageLog] = {}
+_environments: dict[int, _MessageLog] = {}  # likewise for FMI 3.0, by the pointer passed to instances
 _instances = itertools.count(1)
 _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 
 
 def _log(_environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-    _hear(_logs.get((instance or b"").decode(errors="replace")), status, category, message)
+    _log_message(_logs.get((instance or b"").decode(errors="replace")), status, category, message)
 
 
 def _log_of_fmi3(environment: int | None, status: int, category: bytes, message: bytes) -> None:
-    _hear(_environments.get(environment or 0), status, category, message)
+    _log_message(_environments.get(environment or 0), status, category, message)
 
 
-def _hear(log: _Heard | None, status: int, category: bytes, message: bytes) -> None:
+def _log_message(log: _MessageLog | None, status: int, category: bytes, message: bytes) -> None:
     if log is not None and message:
         if len(log) < MOST_MESSAGES:
             log.append(message[:LONGEST_MESSAGE])
@@ -252,7 +257,7 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: boo
             _alone.add(fmu.digest)
     number = next(_instances)
     unique = f"{name}#{number}"
-    _logs[unique] = _Heard()
+    _logs[unique] = _MessageLog()
     if log is not None:
         _logs[unique].listener = partial(log.write, name)
     library = None

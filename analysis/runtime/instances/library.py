@@ -52,7 +52,7 @@ class Library:
     """Library shared by the instances of one unpacked FMU, since FMPy takes milliseconds to load it for each."""
 
     def __init__(self, fmu: Fmu) -> None:
-        self._restore = _nothing if fmu.is_self_contained else load_library().perilune_restore_floats
+        self._restore = _keep_environment if fmu.is_self_contained else load_library().perilune_restore_floats
         with contextlib.chdir(Path.cwd()):  # restores it also if loading fails
             try:
                 self._slave: Slave = (FMU2WatchedSlave if fmu.version == 2 else Fmi3Slave)(
@@ -69,7 +69,7 @@ class Library:
         self.addresses = [
             0 if function is None else ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions
         ]
-        self.place = _place(self._slave.dll) if fmu.is_own else None
+        self.place = _find_locator(self._slave.dll) if fmu.is_own else None
         self.users = 0
 
     def slave(self, instance_name: str) -> Slave:
@@ -83,11 +83,11 @@ class Library:
         self._restore()
 
 
-def _nothing() -> None:
+def _keep_environment() -> None:
     """Do nothing: Perilune's FMUs leave the floating-point environment unchanged."""
 
 
-def _place(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
+def _find_locator(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
     """Return the function of Perilune's native FMUs that locates variables in memory, or None."""
     try:
         function = dll.perilune_place

@@ -107,7 +107,7 @@ def _simulate_anew(fmu: Fmu, simulated: Callable[[str], None] = lambda digest: N
 
 def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
     """Return why a reset does not restore an instance ("" if it does), and whether the FMU may still be used."""
-    for changes in _changes(fmu):
+    for changes in _make_value_sets(fmu):
         used = instantiate(fmu, fmu.name)
         try:
             list(_simulate(used, changes))
@@ -147,7 +147,7 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
         instance.abandon()
 
 
-def _changes(fmu: Fmu) -> list[dict[str, Number]]:
+def _make_value_sets(fmu: Fmu) -> list[dict[str, Number]]:
     """Yield sets of values that differ from the declared ones: all Real parameters and inputs, inputs, none.
 
     Integers are changed only if there is no Real parameter: they may be sizes, and harmful.
@@ -161,14 +161,14 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
     changed = {}
     for variable in given:
         if variable.type == "Real" or (variable.type in KINDS and not has_reals):
-            value = _other(variable)
+            value = _choose_other_value(variable)
             if value is not None:
                 changed[variable.name] = value
     inputs = {name: value for name, value in changed.items() if fmu.variables[name].causality == "input"}
     return [changed, inputs, {}]
 
 
-def _other(variable: ScalarVariable) -> Number | None:
+def _choose_other_value(variable: ScalarVariable) -> Number | None:
     """Return a value near the start value within the declared bounds, or None."""
     start = declared(variable)
     if start is None:

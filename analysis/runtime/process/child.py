@@ -23,7 +23,7 @@ import numpy.random
 from ....common.errors import InputError
 from ....common.family.ending import end_after
 from ....common.machine.os_errors import reason_of
-from ....common.process import leave
+from ....common.process import exit_process
 from ..flight.base_simulation import NOTHING
 from ..flight.memory import Memory, Snapshot
 from ..flight.simulation import Simulation
@@ -53,7 +53,7 @@ def main() -> None:
     subject = unpack(order.content)
     load_library()  # before limits on calls of FMUs apply
     send_answer(channel, messages.Done())
-    leave(do_task(order.task, subject, channel, order.files))
+    exit_process(do_task(order.task, subject, channel, order.files))
 
 
 def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Sequence[int]) -> int:
@@ -66,12 +66,14 @@ def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Se
         leave_messages_unformatted()
     try:
         try:
-            _settle(subject)
+            _initialise_process(subject)
             if isinstance(task, messages.ResetTask):
                 verdict = try_renewals(
-                    subject, lambda digest: send_answer(channel, messages.Tried(digest)), with_reset=task.with_reset
+                    subject,
+                    lambda digest: send_answer(channel, messages.DefaultsSimulated(digest)),
+                    with_reset=task.with_reset,
                 )
-                send_answer(channel, messages.Renewed(verdict.renewal, verdict.reason))
+                send_answer(channel, messages.ResetChecked(verdict.renewal, verdict.reason))
                 return 0
             handler = RequestHandler(channel, task, subject, files)
         except InputError as error:
@@ -84,7 +86,7 @@ def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Se
     return 0
 
 
-def _settle(subject: PreparedSystem | Fmu) -> None:
+def _initialise_process(subject: PreparedSystem | Fmu) -> None:
     """Bring this process to a reproducible state: files of FMUs as unpacked, random number generators seeded.
 
     Children of one server would share the state of Python's and numpy's generators, those of another would not. Raises
@@ -194,13 +196,13 @@ class RequestHandler:
     @_answer.register
     def _(self, request: messages.TakeSnapshot, _files: list[int]) -> None:
         number = max(self._snapshots, default=0) + 1
-        self._snapshots[number] = self._memory.take(request.point)
+        self._snapshots[number] = self._memory.save(request.point)
         send_answer(self._channel, messages.Done(number))
 
     @_answer.register
     def _(self, request: messages.RestoreSnapshot, _files: list[int]) -> None:
         cell = None if request.cell is None else self._memory.cells[request.cell]
-        self._memory.put_back(self._snapshots[request.snapshot], cell, request.number)
+        self._memory.restore(self._snapshots[request.snapshot], cell, request.number)
         send_answer(self._channel, messages.Done())
 
     @_answer.register

@@ -52,7 +52,7 @@ class ForkedChild:
     @property
     def is_over(self) -> bool:
         """True if the child has exited, although its channel may still be open."""
-        return bool(self.server.ask(messages.IsOver(self.number), True))
+        return bool(self.server.ask(messages.ExitQuery(self.number), True))
 
     def end(self, *, kill: bool) -> messages.ChildExit:
         """Close the channel and wait for the child to exit, or kill it. Call this only once."""
@@ -99,7 +99,7 @@ class ServerProcess:
             try:
                 while self._forgotten:
                     send_request(self._control, messages.Forget(self._forgotten.popleft()))
-                number, (key, content) = next(_numbers), self._introduce(subject)
+                number, (key, content) = next(_numbers), self._identify_subject(subject)
                 order = messages.Begin(number, key, content, task, folder, limits)
                 send_request(self._control, order, [theirs.fileno(), *files])
             except OSError:
@@ -108,7 +108,7 @@ class ServerProcess:
                 raise
         return ForkedChild(self, number, ours)
 
-    def _introduce(self, subject: Subject) -> tuple[int, bytes | None]:
+    def _identify_subject(self, subject: Subject) -> tuple[int, bytes | None]:
         """Return the key of a subject, and its pickle unless the server already has it."""
         identity = id(subject)
         if identity in self._keys:
@@ -121,7 +121,7 @@ class ServerProcess:
         """Note that a subject no longer exists. The garbage collector may call this even during a request."""
         self._forgotten.append(self._keys.pop(identity))
 
-    def ask(self, request: messages.IsOver | messages.EndChild, otherwise: Any) -> Any:
+    def ask(self, request: messages.ExitQuery | messages.EndChild, otherwise: Any) -> Any:
         """Return the server's answer, or ``otherwise`` if the server has exited."""
         with _lock, suppress(OSError, EOFError):
             send_request(self._control, request)

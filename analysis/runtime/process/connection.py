@@ -57,13 +57,13 @@ class Watchdog:
 
 
 class ChildConnection:
-    """Connection to a child; ``write`` receives log lines of FMUs. Only `give_up` may be called from other threads."""
+    """Connection to a child; ``write`` receives log lines of FMUs. Only `abort` may be called from other threads."""
 
     def __init__(self, child: Child, write: Callable[[str], None], watchdog: Watchdog) -> None:
         self._child = child
         self._write = write
         self._watchdog = watchdog
-        self._given_up = ""
+        self._abort_reason = ""
         child.channel.settimeout(FRAME_TIMEOUT)
         self._end = weakref.finalize(self, child.end, kill=True)
 
@@ -97,9 +97,9 @@ class ChildConnection:
         """Return the answer to the last request; errors as in `ask`."""
         return self._read(*self._receive(), expected)
 
-    def give_up(self, why: str) -> None:
+    def abort(self, why: str) -> None:
         """End the child because a call does not return; wakes the thread that waits for it."""
-        self._given_up = why
+        self._abort_reason = why
         with suppress(OSError):
             self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes that thread
 
@@ -162,8 +162,8 @@ class ChildConnection:
         while True:
             is_ready = bool(select.select([channel], [], [], POLL_PERIOD)[0])
             if self._watchdog.has_expired():
-                self._given_up = f"a call did not return for {self._watchdog.limit:g} s"
-            if self._given_up or (not is_ready and self._child.is_over):
+                self._abort_reason = f"a call did not return for {self._watchdog.limit:g} s"
+            if self._abort_reason or (not is_ready and self._child.is_over):
                 raise EOFError
             if is_ready:
                 return receive_frame(channel)
@@ -180,9 +180,9 @@ class ChildConnection:
 
     def _error_of_end(self) -> ChildEndedError | ServerEndedError:
         """End the child, and return the error that describes its end."""
-        ended = self._finish(kill=bool(self._given_up))
-        if self._given_up:
-            return ChildEndedError(HUNG, self._given_up)
+        ended = self._finish(kill=bool(self._abort_reason))
+        if self._abort_reason:
+            return ChildEndedError(HUNG, self._abort_reason)
         if ended is not None and ended.reason == messages.SERVER_ENDED:
             return ServerEndedError(f"{messages.SERVER_ENDED}; {REPEAT}", ExitStatus.NOT_MET)
         if ended is None:

@@ -48,7 +48,7 @@ class ResetTask:
 Task = SystemTask | ResetTask
 
 
-# Orders to a flight server, which answers `IsOver` and `EndChild`
+# Orders to a flight server, which answers `ExitQuery` and `EndChild`
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Forget:
 
 
 @dataclass(frozen=True)
-class IsOver:
+class ExitQuery:
     """Query whether a child has exited; processes that it started may keep its channel open."""
 
     number: int
@@ -227,8 +227,8 @@ class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     entries: list[tuple[str, str | None, str | None, int]]
 
 
-class Tried(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Answer after an FMU was simulated with its declared values; a `Renewed` follows.
+class DefaultsSimulated(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+    """Answer after an FMU was simulated with its declared values; a `ResetChecked` follows.
 
     ``digest`` is the SHA-256 of its outputs and parameters.
     """
@@ -236,7 +236,7 @@ class Tried(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     digest: str
 
 
-class Renewed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
+class ResetChecked(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     """Answer with the fields of a `ResetVerdict`."""
 
     renewal: str
@@ -247,6 +247,6 @@ class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     """Last answer: all instances are freed."""
 
 
-Answer = Done | Simulated | Refused | CellList | Tried | Renewed | Freed
+Answer = Done | Simulated | Refused | CellList | DefaultsSimulated | ResetChecked | Freed
 Kind = TypeVar("Kind", bound=msgspec.Struct)
-Order = Begin | Forget | IsOver | EndChild
+Order = Begin | Forget | ExitQuery | EndChild

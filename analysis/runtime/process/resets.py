@@ -29,20 +29,20 @@ class TrialWatch:
         self._why = ""
 
     @property
-    def is_given_up(self) -> bool:
+    def is_cancelled(self) -> bool:
         return bool(self._why)
 
     def begin(self, connection: ChildConnection) -> None:
-        """Register the child of a test; it is ended at once if `give_up` was called before."""
+        """Register the child of a test; it is ended at once if `cancel` was called before."""
         self._connection = connection
         if self._why:
-            connection.give_up(self._why)
+            connection.abort(self._why)
 
-    def give_up(self, why: str) -> None:
+    def cancel(self, why: str) -> None:
         """End the child of the current test, and those of later ones."""
         self._why = why
         if self._connection is not None:
-            self._connection.give_up(why)
+            self._connection.abort(why)
 
 
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
@@ -58,7 +58,7 @@ def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, R
                 verdicts[fmu.digest] = find_verdict(fmu, prepared.options, watch)
             except InputError as error:
                 verdicts[fmu.digest] = ResetVerdict(Renewal.PROCESS, error.problem)
-                if not watch.is_given_up:
+                if not watch.is_cancelled:
                     store_verdict(fmu.digest, verdicts[fmu.digest])
     return verdicts
 
@@ -95,7 +95,7 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
             return f"{component}: one process per simulation; even so, simulations differ: {verdict.reason}"
 
 
-def note_processes(prepared: PreparedSystem, cost: float) -> None:
+def warn_of_processes(prepared: PreparedSystem, cost: float) -> None:
     """Warn, once for each FMU, that every simulation needs a new process, at a ``cost`` (s) each."""
     for component, fmu in prepared.network.fmus.items():
         verdict = verdict_in_cache(fmu)
@@ -125,7 +125,7 @@ class _Trials:
             return verdict
         first, connection = self._digest, self._begin(with_reset=False)
         try:
-            self._digest = connection.receive(messages.Tried).digest
+            self._digest = connection.receive(messages.DefaultsSimulated).digest
         finally:
             connection.kill()
         return (
@@ -145,11 +145,11 @@ class _Trials:
         connection = self._begin(with_reset=with_reset)
         self._digest = ""
         try:
-            self._digest = connection.receive(messages.Tried).digest
-            answer = connection.receive(messages.Renewed)
+            self._digest = connection.receive(messages.DefaultsSimulated).digest
+            answer = connection.receive(messages.ResetChecked)
             return ResetVerdict(Renewal(answer.renewal), answer.reason)
         except ChildEndedError as error:
-            if not self._digest or self._watch.is_given_up:
+            if not self._digest or self._watch.is_cancelled:
                 raise
             reason = f"when its reset was tested, {error.how}"
         finally:

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ....common.family.ending import end_with_parent
-from ....common.process import leave
+from ....common.process import exit_process
 from ....common.scratch import make_folder
 from ..loop.library import load_library
 from . import messages
@@ -106,7 +106,7 @@ class FlightServer:
                 self._begin(order, descriptors)
             case messages.Forget():
                 del self._subjects[order.key]
-            case messages.IsOver():
+            case messages.ExitQuery():
                 send_request(self._control, self._children[order.number].check_end())
             case messages.EndChild():
                 send_request(self._control, self._end(order))
@@ -116,7 +116,7 @@ class FlightServer:
         read, write = os.pipe()
         pid = os.fork()
         if not pid:
-            _live(order, self._subjects[order.key], descriptors, write, str(scratch), server)
+            _run_child(order, self._subjects[order.key], descriptors, write, str(scratch), server)
         for descriptor in (*descriptors, write):
             os.close(descriptor)
         output = OutputPipe(read, self._subjects[order.key].printers)
@@ -184,10 +184,10 @@ def main(control: int) -> None:
         server.serve()
     finally:
         server.close()
-        leave(0)
+        exit_process(0)
 
 
-def _live(
+def _run_child(
     order: messages.Begin, subject: Any, descriptors: list[int], output: int, scratch: str, server: int
 ) -> NoReturn:
     """Do the task of a child that process ``server`` has just forked, and exit."""
@@ -202,7 +202,7 @@ def _live(
         _close_all_but({0, 1, 2, *descriptors})
         os.chdir(order.folder)
         _limit_addresses(order.limits.memory)
-        _settle_in(scratch, order.limits.restriction)
+        _use_scratch(scratch, order.limits.restriction)
         channel, *memory = descriptors
         status = do_task(order.task, subject, socket.socket(fileno=channel), memory)
     except BaseException:
@@ -214,7 +214,7 @@ def _live(
         os._exit(status)
 
 
-def _settle_in(scratch: str, restriction: Restriction | None) -> None:
+def _use_scratch(scratch: str, restriction: Restriction | None) -> None:
     """Use ``scratch`` for temporary files; under a restriction nothing else is writable."""
     for name in ("TMPDIR", "TEMP", "TMP"):
         os.environ[name] = scratch

@@ -16,7 +16,7 @@ from ...options.fault import Fault
 from ..flight.base_memory import BaseMemory, MemoryCell
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
-from ..flight.program import layout_of
+from ..flight.program import make_layout
 from ..flight.recorder import FmuActivity
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
@@ -25,7 +25,7 @@ from ..system.prepared import PreparedSystem
 from . import messages
 from .connection import ChildEndedError, ServerEndedError
 from .messages import SERVER_ENDED
-from .resets import TrialWatch, find_verdicts, note_processes
+from .resets import TrialWatch, find_verdicts, warn_of_processes
 from .shared_recorder import SharedRecorder
 from .system_process import RECORDERS, Scenario, SystemProcess
 
@@ -43,8 +43,8 @@ class ProcessSimulation(BaseSimulation):
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         super().__init__(prepared, **choices)
         injections = self._selection.injections(prepared.step)
-        self.layout = layout_of(
-            prepared.network, self.settings, self._selection.wanted, injections, self._selection.more
+        self.layout = make_layout(
+            prepared.network, self.settings, self._selection.wanted, injections, self._selection.additional
         )
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
@@ -84,8 +84,8 @@ class ProcessSimulation(BaseSimulation):
         check_replaced(self._selection.faults, faults)
         self._faults = faults
 
-    def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
-        """See `BaseSimulation.announce`."""
+    def queue_run(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
+        """See `BaseSimulation.queue_run`."""
         with suppress(ServerEndedError):  # the simulation itself raises it, too
             self._find_verdicts()
         is_ready = self.process.is_open and self._renews and not self._is_halted and not self._needs_processes
@@ -162,7 +162,7 @@ class ProcessSimulation(BaseSimulation):
             self._free()
             begun = time.monotonic()
             self._start()
-            note_processes(self.prepared, time.monotonic() - begun)
+            warn_of_processes(self.prepared, time.monotonic() - begun)
         if not self.process.is_open:
             self._start()
 
@@ -185,10 +185,10 @@ class ProcessSimulation(BaseSimulation):
         self._is_halted = halt
         self.recorder.halt[0] = halt
 
-    def give_up(self, why: str) -> bool:
+    def abort(self, why: str) -> bool:
         """End the child of a simulation running in another thread; its flight then has the status ``hung``."""
-        self._resets.give_up(why)
-        self.process.give_up(why)
+        self._resets.cancel(why)
+        self.process.abort(why)
         return True
 
     def memory(self) -> ProcessMemory:
@@ -238,12 +238,12 @@ class ProcessMemory(BaseMemory[ProcessSnapshot]):
         with self._simulation.process.refusing_end() as connection:
             return connection.ask_numbers(messages.ReadMemory(), len(self.cells))
 
-    def take(self, point: int) -> ProcessSnapshot:
-        """See `BaseMemory.take`."""
+    def save(self, point: int) -> ProcessSnapshot:
+        """See `BaseMemory.save`."""
         return ProcessSnapshot(point, self._ask(messages.TakeSnapshot(point)))
 
-    def put_back(self, snapshot: ProcessSnapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
-        """See `BaseMemory.put_back`."""
+    def restore(self, snapshot: ProcessSnapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
+        """See `BaseMemory.restore`."""
         index = None if cell is None else self.cells.index(cell)
         self._ask(messages.RestoreSnapshot(snapshot.number, index, number))
 

@@ -161,7 +161,7 @@ class SystemProcess:
         except ChildEndedError as error:
             raise InputError(self.prepared.network.file, "", self.describe_end(error), SEE_LOG) from None
 
-    def give_up(self, why: str) -> None:
+    def abort(self, why: str) -> None:
         """End the child while another thread waits for its simulation."""
         if self._is_ready:
-            self.connection.give_up(why)
+            self.connection.abort(why)

@@ -36,8 +36,8 @@ DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 class SystemArchive:
     """Files of a system by archive name; ``label`` names it in messages, ``description`` is the default SSD.
 
-    ``elsewhere`` maps keys (`fmu_asked`, `use_asked`, `parameters_asked`) to the files that replace those outside the
-    system; if it is not empty, no others are read. ``besides`` collects names of files read from the folder that are
+    ``elsewhere`` maps keys (`fmu_key`, `use_key`, `parameters_key`) to the files that replace those outside the
+    system; if it is not empty, no others are read. ``unlisted`` collects names of files read from the folder that are
     not in ``files``.
     """
 
@@ -47,7 +47,7 @@ class SystemArchive:
     files: Mapping[str, Path | bytes]
     description: str = DESCRIPTION
     elsewhere: Mapping[str, Path] = field(default_factory=dict)
-    besides: dict[str, None] = field(default_factory=dict)
+    unlisted: dict[str, None] = field(default_factory=dict)
     known_digest: str | None = None
 
     @property
@@ -81,11 +81,11 @@ class SystemArchive:
 
     def _inside(self, name: str) -> bool:
         """Return True if a name not in `system_files` may be that of a file in the system's folder or near it."""
-        return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _goes_up(name)))
+        return self.path.is_dir() and (not _leads_outside(name) or (self.known_digest is None and _leads_upwards(name)))
 
     def note(self) -> str | None:
         """Return a note on files that were read from outside the system's folder, or None."""
-        paths = [Path(os.path.normpath(self.path / name)) for name in self.besides if _goes_up(name)]
+        paths = [Path(os.path.normpath(self.path / name)) for name in self.unlisted if _leads_upwards(name)]
         outside = [str(path) for path in paths if not path.is_relative_to(self.path)]
         if not outside:
             return None
@@ -93,14 +93,14 @@ class SystemArchive:
         return f"{self.label}: reads {', '.join(outside)}, which {lie} outside the system's folder"
 
     def _content(self, name: str, element: str) -> bytes:
-        if name not in self.files and not self._inside(name) and _leaves(name):
+        if name not in self.files and not self._inside(name) and _leads_outside(name):
             where = "folder" if self.path.is_dir() else "archive"
             problem = f"{name} lies outside the system's {where}"
             raise InputError(self.label, element, problem, "put the file inside and correct the reference")
         if not self.has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
         if name not in self.files:
-            self.besides[name] = None
+            self.unlisted[name] = None
         content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
@@ -112,10 +112,10 @@ class SystemArchive:
         """
         if self.is_fmu:
             return read_fmu(self.path), self.label
-        if fmu_asked(source) in self.elsewhere:
-            return read_fmu(self.elsewhere[fmu_asked(source)]), source
+        if fmu_key(source) in self.elsewhere:
+            return read_fmu(self.elsewhere[fmu_key(source)]), source
         name = self._place(source)
-        if self.has(name) or self.path.is_file() or not self._inside(name) or _goes_up(name):
+        if self.has(name) or self.path.is_file() or not self._inside(name) or _leads_upwards(name):
             return partial(self._content, name, element), self.label_of(name)
         self.refuse_elsewhere(name, element)
         flavours = FLAVOURS if flavour is None else (flavour,)
@@ -183,8 +183,8 @@ class SystemArchive:
                 content, label = self._content(place, option), self.label_of(place)
                 _warn_of_another(name, content, label, option, suffix)
                 return content, label
-        if parameters_asked(name) in self.elsewhere:
-            return read_input(self.elsewhere[parameters_asked(name)], OTHER, bound_of(suffix)), name
+        if parameters_key(name) in self.elsewhere:
+            return read_input(self.elsewhere[parameters_key(name)], OTHER, bound_of(suffix)), name
         self.refuse_elsewhere(name, option)
         if os.path.lexists(name):
             return read_input(name, OTHER, bound_of(suffix)), name
@@ -224,17 +224,17 @@ def read_fmu(path: Path) -> Callable[[], bytes]:
     return partial(read_input, path, OTHER, ARCHIVE_BYTES)
 
 
-def fmu_asked(source: str) -> str:
+def fmu_key(source: str) -> str:
     """Return the key in `SystemArchive.elsewhere` for the FMU of a component's source."""
     return f"source:{source}"
 
 
-def use_asked(name: str) -> str:
+def use_key(name: str) -> str:
     """Return the key in `SystemArchive.elsewhere` for an FMU that the option `use` names."""
     return f"use:{name}"
 
 
-def parameters_asked(name: str) -> str:
+def parameters_key(name: str) -> str:
     """Return the key in `SystemArchive.elsewhere` for a parameter set."""
     return f"parameters:{name}"
 
@@ -272,12 +272,12 @@ def system_names() -> list[str]:
     return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{SYSTEM_FILE}"))
 
 
-def _leaves(name: str) -> bool:
+def _leads_outside(name: str) -> bool:
     """Return True if a normalised name leads out of its starting folder."""
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
 
 
-def _goes_up(name: str) -> bool:
+def _leads_upwards(name: str) -> bool:
     """Return True if a normalised name leads through .. to a file outside its starting folder."""
     inside = list(itertools.dropwhile("..".__eq__, name.split("/")))
     return name.startswith("../") and bool(inside) and ":" not in inside[0]

@@ -40,7 +40,7 @@ class Unit:
         offset = f" + {self.offset:g}" if self.offset else ""
         return f"{self.name} ({' '.join([*factor, *parts])}{offset})"
 
-    def fits(self, other: Unit) -> bool:
+    def is_convertible(self, other: Unit) -> bool:
         """Return True if values can be converted; rad counts as dimensionless (FMI 2.0)."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name

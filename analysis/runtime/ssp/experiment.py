@@ -21,7 +21,7 @@ OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github
 
 
 @dataclass(frozen=True)
-class Pace:
+class StepSettings:
     """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step."""
 
     step: float | None = None
@@ -29,25 +29,25 @@ class Pace:
     varies: int | None = None
 
 
-def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
+def pace_of_experiment(experiment: etree._Element | None, file: str) -> StepSettings:
     """Return the pace of the default experiment. Raises InputError."""
     for kind, item in _read_annotation(experiment):
         if kind == OURS and tag(item) == "CommunicationStep":
-            return Pace(_seconds(item, ("size",), file))
+            return StepSettings(_seconds(item, ("size",), file))
         if kind in OSP and tag(item) == "FixedStepAlgorithm":
-            return Pace(_seconds(item, ("baseStepSize", "stepSize"), file), "jacobi")
-    return Pace()
+            return StepSettings(_seconds(item, ("baseStepSize", "stepSize"), file), "jacobi")
+    return StepSettings()
 
 
-def pace_of_system(system: etree._Element, file: str) -> Pace:
+def pace_of_system(system: etree._Element, file: str) -> StepSettings:
     """Return the pace of a system, without its inner systems. Raises InputError."""
     for kind, item in _read_annotation(system):
         if kind == OMSIMULATOR or kind in OSP:
             if tag(item) == "FixedStepMaster":
-                return Pace(_seconds(item, ("stepSize",), file), "jacobi")
+                return StepSettings(_seconds(item, ("stepSize",), file), "jacobi")
             if tag(item) in ("VariableStepMaster", "VariableStepSolver"):
-                return Pace(algorithm="jacobi", varies=item.sourceline)
-    return Pace()
+                return StepSettings(algorithm="jacobi", varies=item.sourceline)
+    return StepSettings()
 
 
 def step_of_component(component: etree._Element, file: str) -> float | None:

@@ -23,6 +23,6 @@ ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
 }
 
 
-def leads(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
+def can_connect(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
     """Return True if values can flow between connectors of these kinds, each of the system or of an element."""
     return target in ALLOWED.get((is_system, kind), {}).get(is_target_system, ())

@@ -24,7 +24,7 @@ from .description import (
 )
 from .dimensions import read_dimensions
 from .documents import check_schema, child, children, read_document, signatures, tag
-from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
+from .experiment import StepSettings, pace_of_experiment, pace_of_system, step_of_component
 from .osp.structure import read_osp
 from .types import RUNTIME_TYPES, runtime_type
 
@@ -69,7 +69,7 @@ class Reader:
         if experiment is not None:
             start, stop = experiment.get("startTime"), experiment.get("stopTime")
         pace = pace_of_experiment(experiment, self.file)
-        if pace == Pace():
+        if pace == StepSettings():
             pace = pace_of_system(system, self.file)
         return SystemDescription(
             file=self.file,

@@ -224,7 +224,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
     transformation = assignment.transformation or Transformation()
     if type_name == "Real":
         if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
-            if not assignment.unit.fits(node.unit):
+            if not assignment.unit.is_convertible(node.unit):
                 raise InputError(
                     assignment.file,
                     assignment.where,
@@ -286,7 +286,7 @@ def _check_bounds(assignment: Assignment, variable: ScalarVariable | None, value
     stored = REPRESENTATIONS["Float64" if isinstance(value, float) else "Int32"]
     stored = stored if variable is None else variable.representation
     if not stored.limits[0] <= value <= stored.limits[1]:
-        problem = f"{value} {stored.complaint()}"
+        problem = f"{value} {stored.describe_problem()}"
         raise InputError(assignment.file, assignment.where, problem, "give a smaller number")
     if low is not None and value < float(low):
         raise InputError(

@@ -23,7 +23,7 @@ MOST = 6  # FMUs that are named
 
 def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
     """Return the error for an FMU that does not fit its slot; ``error`` is the description's."""
-    fits = list(_fitting(component))
+    fits = list(_iterate_fitting_fmus(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
     remedy = f"these fit: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here fits; build one with its connectors"
     reason = error.element.partition(" (line")[0]
@@ -32,11 +32,11 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
 
 def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
     """Return the error for a missing FMU in a slot; it suggests the most similar name that fits."""
-    remedy = f"of those that fit {slot} {suggestion(fmu, _fitting(component))}; or build your own"
+    remedy = f"of those that fit {slot} {suggestion(fmu, _iterate_fitting_fmus(component))}; or build your own"
     return InputError("`use`", f"{slot}={fmu}", "no such FMU is built", remedy)
 
 
-def _fitting(component: Component) -> Iterator[str]:
+def _iterate_fitting_fmus(component: Component) -> Iterator[str]:
     """Yield the names of the FMUs that have all connectors of a component."""
     wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}
     for name, flavours in fmu_flavours().items():
@@ -141,7 +141,7 @@ def check_value(variable: ScalarVariable, kind: str, value: float | bool, where:
     elif isinstance(value, bool):
         raise InputError(*where, f"{number_text(value)} is not of type {type_name}", "give a number")
     elif type_name != "Real" and not (value == round(value) and stored.limits[0] <= value <= stored.limits[1]):
-        raise InputError(*where, f"{number_text(value)} is not of type {type_name}", f"give {stored.demand()}")
+        raise InputError(*where, f"{number_text(value)} is not of type {type_name}", f"give {stored.describe_range()}")
     if variable.is_tunable and kind == "override":
         check_bounds(variable, float(value), where)
 

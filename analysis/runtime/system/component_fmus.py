@@ -11,7 +11,7 @@ from ....common.paths import FLAVOURS, names_fmu
 from ....common.regular import names_file
 from ....fmus_src.export.available import find_fmu, fmu_flavours
 from ..fmi.structure import structural_sizes
-from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, parameters_asked, read_fmu, use_asked
+from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_key, parameters_key, read_fmu, use_key
 from ..ssp.description import Component, SystemDescription
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from .arrays.sizes import Sizes, given_values
@@ -52,7 +52,7 @@ class ComponentFmus:
     def _find_used(self, name: str, component: Component) -> tuple[Read, str]:
         archive, options, use = self.archive, self.options, self.options.use[name]
         self._used[name] = component
-        key = use_asked(use)
+        key = use_key(use)
         block = self._current_name(name, use)
         if key in archive.elsewhere:
             read, label = read_fmu(archive.elsewhere[key]), use
@@ -66,11 +66,11 @@ class ComponentFmus:
 
     def _find_described(self, name: str, component: Component) -> tuple[Read, str]:
         archive, source = self.archive, component.source
-        if not (archive.is_own_file(source) or fmu_asked(source) in archive.elsewhere):
+        if not (archive.is_own_file(source) or fmu_key(source) in archive.elsewhere):
             source = Path(source).with_stem(self._current_name(name, Path(source).stem)).as_posix()
         read, label = archive.fmu(source, f"{name} (line {component.line})", self.options.build)
         if not archive.is_own_file(source):
-            self.elsewhere[fmu_asked(source)] = read
+            self.elsewhere[fmu_key(source)] = read
         return read, label
 
     def _current_name(self, component: str, name: str) -> str:
@@ -109,7 +109,7 @@ class ComponentFmus:
         for name in options.parameters:
             data, label = self.archive.parameter_set(name)
             if not label.startswith(f"{self.archive.label}!"):
-                self.elsewhere[parameters_asked(name)] = partial(bytes, data)
+                self.elsewhere[parameters_key(name)] = partial(bytes, data)
             assignments += read_parameter_file(
                 data, label, self.notes if options.chosen["allow_unmatched"] else None, self.notes
             )

@@ -17,7 +17,7 @@ from ..ssp.description import (
     SystemDescription,
     SystemElement,
 )
-from ..ssp.kinds import PARAMETERS, leads
+from ..ssp.kinds import PARAMETERS, can_connect
 from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
 from .network import Network, Node, NodeLink
@@ -185,7 +185,7 @@ def _connect(network: Network, path: str, system: SystemElement, connection: Con
     network.driver[link.target.name] = link
 
 
-def orient(
+def find_direction(
     network: Network, path: str, system: SystemElement, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
     """Return source and target of a connection with their nodes, since SSP does not define its direction.
@@ -196,9 +196,9 @@ def orient(
     end = _end(network, path, system, connection.end, connection)
     start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
     forwards = (connection.start, start), (connection.end, end)
-    if leads(start.kind, start_is_own, end.kind, end_is_own):
+    if can_connect(start.kind, start_is_own, end.kind, end_is_own):
         return forwards
-    if not leads(end.kind, end_is_own, start.kind, start_is_own):
+    if not can_connect(end.kind, end_is_own, start.kind, start_is_own):
         problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}, which cannot be connected"
         remedy = "connect an output with an input"
         if (start.kind in PARAMETERS) != (end.kind in PARAMETERS):
@@ -210,7 +210,7 @@ def orient(
 
 def _link(network: Network, path: str, system: SystemElement, connection: Connection) -> NodeLink:
     """Return the link of a connection, from its start or, if values flow backwards, from its end."""
-    (_, start), (_, end) = orient(network, path, system, connection)
+    (_, start), (_, end) = find_direction(network, path, system, connection)
     if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
             connection.where,

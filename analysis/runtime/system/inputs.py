@@ -41,7 +41,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
     if not open_inputs:
         return
     if not keep_starts:
-        open_inputs = _whole(network, inputs, open_inputs)
+        open_inputs = _drop_partial_arrays(network, inputs, open_inputs)
     if open_inputs and not keep_starts:
         one = len(open_inputs) == 1
         problem = f"{'input is' if one else f'{len(open_inputs)} inputs are'} neither connected nor given a value"
@@ -69,7 +69,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
                 open_inputs.append(link.target)
 
 
-def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
+def _drop_partial_arrays(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
     """Return open inputs without those of arrays in which another element is connected or has a value.
 
     SSP 2.0 cannot declare single elements of an array: the others keep the FMU's start values, which is noted.
@@ -198,7 +198,7 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
         wrong, problem, remedy = (values != 0.0) & (values != 1.0), "is not a Boolean", "give true or false, 1 or 0"
     else:
         wrong = (values != np.round(values)) | (values < stored.limits[0]) | (values > stored.limits[1])
-        problem, remedy = f"is not of type {type_name}", f"give {stored.demand()}"
+        problem, remedy = f"is not of type {type_name}", f"give {stored.describe_range()}"
     if wrong.any():
         row = int(np.flatnonzero(wrong)[0])
         raise InputError(series.file, series.place(row, column), f"{values[row]:.12g} {problem}", remedy)

@@ -126,11 +126,11 @@ class SystemOptions(Trust, Layer):
         layer = {name: getattr(self, name) for name in options_of(declared.LayerOptions)}
         return layer | {name: each for group in GROUPS for name, each in getattr(self, group).items()}
 
-    def but(self, **changes: Unpack[_Keywords]) -> SystemOptions:
+    def replace(self, **changes: Unpack[_Keywords]) -> SystemOptions:
         """Return these options with some changes."""
         return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
-    def among(self, **layers: Layer) -> SystemOptions:
+    def merge(self, **layers: Layer) -> SystemOptions:
         """Return these options, the command line's, merged with those of other sources, by the names of `LAYERS`."""
         remaining: dict[str, Layer] = {"command_line": self, **layers}
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
@@ -158,7 +158,7 @@ def system_options(options: Mapping[str, Any]) -> SystemOptions:
     return SystemOptions(**cast(_Keywords, keywords))
 
 
-def trust_of(options: Mapping[str, Any]) -> Trust:
+def select_permissions(options: Mapping[str, Any]) -> Trust:
     """Return the permissions of foreign FMUs contained in the options of a verb."""
     keywords = {name: options[name] for name in options_of(declared.TrustOptions) if name in options}
     return Trust(**cast(declared.TrustOptions, keywords))

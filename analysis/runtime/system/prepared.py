@@ -122,7 +122,7 @@ def _prepare(
     network, remarks = _read_network(fmus)
     if series is not None:
         network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
-    settings = _settle(network, fmus)
+    settings = _check_settings(network, fmus)
     algorithm = options.chosen["algorithm"] or fmus.description.algorithm or SEQUENTIAL
     feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
     schedule = make_schedule(network, feedthrough, algorithm)
@@ -175,7 +175,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
     return network, remarks
 
 
-def _settle(network: Network, fmus: ComponentFmus) -> SystemSettings:
+def _check_settings(network: Network, fmus: ComponentFmus) -> SystemSettings:
     """Return the settings of a network, after checking it with them. Raises InputError."""
     archive, options = fmus.archive, fmus.options
     assignments = [each for name, (_, retired) in fmus.retired.items() for each in retired.assignments(name)]

@@ -24,7 +24,7 @@ _NEAR = 0.5  # distance (rad, in log gain, or of -1) within which a closest appr
 _ROUNDING = 1e-9  # distance below which closest approaches are noise
 
 
-class Remembered:
+class CachedResponse:
     """Response that caches the values of another one by frequency (rad/s)."""
 
     def __init__(self, response: Response) -> None:
@@ -41,7 +41,7 @@ class Remembered:
 
 def cache_response(response: Response) -> Response:
     """Return the response with a cache, for several uses of one curve; a cached response is returned unchanged."""
-    return response if isinstance(response, Remembered) else Remembered(response)
+    return response if isinstance(response, CachedResponse) else CachedResponse(response)
 
 
 def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from ..loops.margin_values import LoopMargins, MarginQuantity
 from ..loops.margins import classical, robust
 from ..loops.readings import Classical, FrequencyResponse, Robust
 from ..request.declaration import MarginLimits
-from ..results.requirement import MarginRequirement, Scope, grows
+from ..results.requirement import MarginRequirement, Scope, describe_instability
 
 LOWEST = 1e-6  # fraction of the Nyquist frequency, below which a linear model's integrators are not resolved
 BELOW = 0.02  # fraction of the lowest gain crossover, from which on a loop is studied
@@ -88,7 +88,7 @@ def requirements(
         note = "poles are not known without a linearisation"
         stability = MarginRequirement(Scope.NOMINAL, MarginQuantity.STABILITY, None, 1.0, None, note)
     else:
-        note = "" if margins.stable else grows(outside) or "the closed loop is unstable"
+        note = "" if margins.stable else describe_instability(outside) or "the closed loop is unstable"
         stability = MarginRequirement(
             Scope.NOMINAL, MarginQuantity.STABILITY, margins.largest, 1.0, margins.stable, note
         )

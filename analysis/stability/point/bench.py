@@ -180,17 +180,17 @@ class OperatingPoint:
             for channel in bench.channels:
                 size = float(np.max(abs(channel.injection_for(signals)), initial=0.0))
                 self.sizes[channel.loop] = max(self.sizes.get(channel.loop, 0.0), size)
-        self.snapshot = self.memory.take(last)
+        self.snapshot = self.memory.save(last)
         self.sizes = {loop: size or 1.0 for loop, size in self.sizes.items()}
         self.scale = _scales(self.memory.cells, largest, self.memory.read())
 
-    def one_period_on(self) -> OperatingPoint:
+    def advance_period(self) -> OperatingPoint:
         """Return the operating point one hyperperiod later, with the same scales; this one's snapshot is unchanged."""
         later = copy.copy(self)
-        self.memory.put_back(self.snapshot)
+        self.memory.restore(self.snapshot)
         last = self.snapshot.point + self.bench.period
         self.bench.fly(self.snapshot.point, last)
-        later.snapshot = self.memory.take(last)
+        later.snapshot = self.memory.save(last)
         return later
 
     def release(self) -> None:

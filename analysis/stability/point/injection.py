@@ -102,14 +102,14 @@ class Injector:
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
         return DEFAULT_SHARE * (size or 1.0)
 
-    def wave(self, peak: float | None = None) -> tuple[np.ndarray, float]:
+    def make_signal(self, peak: float | None = None) -> tuple[np.ndarray, float]:
         """Return one period of the signal [samples] and its peak, by default `peak`. Raises as `measure`."""
         size = self.peak() if peak is None else peak
         return self.signal.signal * (size / float(np.max(abs(self.signal.signal)))), size
 
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
         """Measure L on the lines with a multisine of this peak, and the largest response on unexcited lines."""
-        wave, _ = self.wave(peak)
+        wave, _ = self.make_signal(peak)
         window = self.periods * self.samples
         while True:
             u, v = self._answer(np.tile(wave, self._transient + self.periods + 1))
@@ -135,7 +135,7 @@ class Injector:
             raise NotMeasurableError("the injected signal does not arrive downstream of the cut")
         return -back / inside, fraction_unexcited(u[-window:], self.signal)
 
-    def near(self, frequency: float) -> tuple[float, complex]:
+    def measure_line(self, frequency: float) -> tuple[float, complex]:
         """Return the frequency (rad/s) of a line near the requested one, and L there, measured with a sine.
 
         Raises as `measure`.

@@ -28,7 +28,7 @@ class Jacobian:
         self.memory, self.snapshot = operating_point.memory, operating_point.snapshot
         self.scale, self.sizes = operating_point.scale, operating_point.sizes
         self.first, self.last = self.snapshot.point, self.snapshot.point + self.bench.period
-        self.memory.put_back(self.snapshot)
+        self.memory.restore(self.snapshot)
         self.start = self.memory.read()
         self.base = self.bench.fly(self.first, self.last)
         self.end = self.memory.read()
@@ -55,9 +55,9 @@ class Jacobian:
         """Return the derivative with respect to one cell; it and ``step`` are in units of the cell's scale."""
         high = self.start[cell] + step * self.scale[cell]
         low = self.start[cell] - step * self.scale[cell]
-        self.memory.put_back(self.snapshot, self.memory.cells[cell], high)
+        self.memory.restore(self.snapshot, self.memory.cells[cell], high)
         above = self._after()
-        self.memory.put_back(self.snapshot, self.memory.cells[cell], low)
+        self.memory.restore(self.snapshot, self.memory.cells[cell], low)
         return (above - self._after()) * (self.scale[cell] / (high - low))
 
     def input_column(self, port: SampledChannel, sample: int, step: float) -> np.ndarray:
@@ -73,7 +73,7 @@ class Jacobian:
             added[sample * channel.period : (sample + 1) * channel.period] = sign * size
             excitation = np.zeros((self.bench.period, len(self.bench.connectors)))
             excitation[:, self.bench.columns(channel)] = channel.excitation(self.base, added)
-            self.memory.put_back(self.snapshot)
+            self.memory.restore(self.snapshot)
             ends.append(self._after(excitation))
         return (ends[0] - ends[1]) / (2.0 * size)
 

@@ -12,7 +12,7 @@ import scipy.linalg
 from .bench import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
-from .modes import CoupledMemory, circles, multipliers
+from .modes import CoupledMemory, find_coupled_cells, multipliers
 
 # Of derivatives by one step of 1e-5: an integrator's multiplier over 5 s differs from 1 by 2.4e-5 (landing_mission).
 ONE_STEP_CHANGE = 1e-5
@@ -56,7 +56,7 @@ def linearise(
     screened = None
     if cells is None:
         screened = np.column_stack([jacobian.screen(cell) for cell in range(count)])
-        lasting = {int(cell) for block in circles(screened[:count]) for cell in block}
+        lasting = {int(cell) for block in find_coupled_cells(screened[:count]) for cell in block}
         cells = sorted(lasting.union(np.flatnonzero(_in_between(screened, driven)).tolist()))
     remembered = [plateau(partial(jacobian.cell_column, cell), steps) for cell in cells]
     matrices, models = [], []
@@ -128,7 +128,7 @@ def _blocks(
         moved.append(_perturb(arrows, driven[port.rows]))
         moves.append(_moves(arrows, np.any(arrows[np.concatenate([signals, signals + inputs])] != 0.0, axis=0)))
     blocks = []
-    for cells in circles(matrices[0][:count]):
+    for cells in find_coupled_cells(matrices[0][:count]):
         values, neighbours = (multipliers(matrix, cells) for matrix in matrices)
         blocks.append(
             CoupledMemory(

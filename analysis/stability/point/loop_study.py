@@ -23,7 +23,7 @@ from .injection import Injector, NotMeasurableError, UnstableError
 from .modes import structure
 from .open_loop import open_loop
 from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
-from .silence import silence_of
+from .silence import find_silent_end
 
 SILENT = "none of the injected signal returns: L is 0"
 RETURN_LIMIT = 1e-9  # gain below which nothing comes back
@@ -81,7 +81,7 @@ class LoopStudy:
             return assessment.classical, assessment.robust
 
         try:
-            refined = refine(self.measured.curve, margins_of, self.injector.near)
+            refined = refine(self.measured.curve, margins_of, self.injector.measure_line)
         except ValueError:  # a curve without margins, which `assessed` reports
             return
         except (NotMeasurableError, StudyError) as error:
@@ -133,7 +133,7 @@ class LoopStudy:
     def _bent(self) -> bool:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
-    def refuse_what_is_no_loop(self) -> None:
+    def check_loop(self) -> None:
         """Raise StudyError without a return signal, for unbounded growth, and if no method finds a linear loop.
 
         For a nonlinear loop the message has L over the amplitude.
@@ -163,11 +163,11 @@ class LoopStudy:
         """Raise LoopError, unless the model is unstable and a simulation confirms the growth."""
         injector = self.injector or Injector(self.bench, self.channel, LINES_FROM * FIRST_LOOK * self.nyquist)
         try:
-            wave, peak = injector.wave()
+            wave, peak = injector.make_signal()
         except (NotMeasurableError, StudyError) as error:
             raise LoopError(f"{SILENT} ({error})", MarginVerdict.NOT_APPLICABLE) from error
         measured = self.measured is not None
-        silence = silence_of(self.bench.prepared, self.bench, self.channel, peak, wave, measured)
+        silence = find_silent_end(self.bench.prepared, self.bench, self.channel, peak, wave, measured)
         if silence.growth is not None and self.model is None:
             raise UnstableError(silence.growth)
         if silence.growth is not None and self.model is not None and not self.model.stable:

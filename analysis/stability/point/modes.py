@@ -47,7 +47,7 @@ def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
     return tuple(classified)
 
 
-def unseen_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:
+def make_outside_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:
     """Return a mode of memory outside the loop, which its cut affects or which affects it, but not both."""
     kind = "neither" if moved == moves else KINDS[moved, moves]
     return _mode(z, period, kind, float(moved), float(moves))
@@ -95,7 +95,7 @@ class CoupledMemory:
     moves: tuple[bool, ...]
 
 
-def circles(matrix: np.ndarray) -> list[np.ndarray]:
+def find_coupled_cells(matrix: np.ndarray) -> list[np.ndarray]:
     """Return the cells of each block of a matrix [to, from] whose multipliers may be other than 0 or 1."""
     _, labels = connected_components(matrix != 0.0, directed=True, connection="strong")
     own = np.diagonal(matrix)

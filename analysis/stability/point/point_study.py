@@ -106,7 +106,7 @@ class PointStudy:
         """Return the largest relative change of a loop's L near its crossovers over one hyperperiod."""
         assert self.linear is not None
         assert self._start is not None
-        start = self._start.one_period_on()
+        start = self._start.advance_period()
         try:
             later = linearise(start, self.linear.cells)
         finally:

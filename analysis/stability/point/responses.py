@@ -16,7 +16,7 @@ from .assessment import assess, lowest_frequency
 from .bench import StudyError
 from .lifted import UNIT_CIRCLE, LiftedModel, SampledChannel
 from .linearise import Linearisation
-from .modes import CoupledMemory, modes, unseen_mode
+from .modes import CoupledMemory, make_outside_mode, modes
 
 GAIN_AGREES = factor_of(0.1)
 PHASE_AGREES = np.radians(0.5)
@@ -139,9 +139,9 @@ def loop_model(linearisation: Linearisation, port: SampledChannel) -> LoopModel:
     outside = tuple(block for block in linearisation.blocks if _is_outside(block, own, change))
     place = linearisation.model.ports.index(port)
     unseen = tuple(
-        unseen_mode(complex(block.multipliers[0]), model.period, block.moved[place], block.moves[place])
+        make_outside_mode(complex(block.multipliers[0]), model.period, block.moved[place], block.moves[place])
         for block in outside
-        if not any(_alike(mode, block) for mode in own)
+        if not any(_equals_fastest(mode, block) for mode in own)
     )
     return LoopModel(model, port, own + unseen, model.open_loops((port,)), facts, outside)
 
@@ -154,10 +154,10 @@ def _is_outside(block: CoupledMemory, own: Sequence[Mode], plateau: float) -> bo
     """Return True if a block grows, and no mode of the loop accounts for it."""
     if abs(block.multipliers[0]) < 1.0 + _blur(max(block.change, plateau)):
         return False
-    return not any(mode.kind == "loop" and _alike(mode, block) for mode in own)
+    return not any(mode.kind == "loop" and _equals_fastest(mode, block) for mode in own)
 
 
-def _alike(mode: Mode, block: CoupledMemory) -> bool:
+def _equals_fastest(mode: Mode, block: CoupledMemory) -> bool:
     """Return True if a mode equals the fastest one of a block, up to the effect of memory that reduction omitted."""
     return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 

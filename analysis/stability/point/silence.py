@@ -22,7 +22,7 @@ ROUNDING = 1e-12  # fraction of an output's size, below which a change is roundi
 
 
 @dataclass(frozen=True)
-class Silence:
+class SilentEnd:
     """End of a signal path at the first ``component`` whose outputs do not respond; None if unknown.
 
     ``growth`` is the factor per sample by which an output departs from the undisturbed simulation, or None.
@@ -39,9 +39,9 @@ class Silence:
         return f"no signal returns downstream of {self.component}"
 
 
-def silence_of(
+def find_silent_end(
     prepared: PreparedSystem, bench: Bench, channel: Channel, peak: float, wave: np.ndarray, measured: bool
-) -> Silence:
+) -> SilentEnd:
     """Return where a silent loop ends, from simulations that record all outputs after the cut.
 
     ``wave`` [samples] with its peak ``peak`` is added for some periods to find growing outputs. If the loop was
@@ -58,7 +58,7 @@ def silence_of(
             _, responses = _disturb(ear, channel, np.full(max(length, 1), size), names)
     finally:
         ear.close()
-    return Silence(None if responses is None else path.first_still(responses), grown)
+    return SilentEnd(None if responses is None else path.find_first_silent(responses), grown)
 
 
 def _disturb(
@@ -106,7 +106,7 @@ class _Path:
     readers: Mapping[str, set[str]]
     outputs: Mapping[str, list[str]]
 
-    def first_still(self, responses: Mapping[str, bool]) -> str | None:
+    def find_first_silent(self, responses: Mapping[str, bool]) -> str | None:
         """Return the nearest component to the cut that the response reaches but that does not respond, or None."""
         queue, known = sorted(self.first & self.outputs.keys()), set[str]()
         while queue:

@@ -173,7 +173,7 @@ def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> Sys
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)
     sampled = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
-    return options.among(campaign=plan.campaign.layer_of(variant), draws=Layer(set=sampled))
+    return options.merge(campaign=plan.campaign.layer_of(variant), draws=Layer(set=sampled))
 
 
 @dataclass(frozen=True)
@@ -186,12 +186,12 @@ class Subject:
 
     def with_options(self, *, step: float | None = None, **layers: Layer) -> Subject:
         """Return the subject with another communication step (s), and further options by the names of `LAYERS`."""
-        options = self.options.among(**layers)
-        return replace(self, options=options if step is None else options.but(step=step))
+        options = self.options.merge(**layers)
+        return replace(self, options=options if step is None else options.replace(step=step))
 
     def at(self, point: PointDeclaration, study: Layer | None = None) -> PreparedSystem:
         """Return the system prepared at a point, with ``study`` as the top layer. Raises InputError."""
-        options = self.options.among(operating_point=point.layer, study=study or Layer())
+        options = self.options.merge(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)
 
 

@@ -118,7 +118,7 @@ class PointReport:
 
 
 @dataclass(frozen=True)
-class Unstudied:
+class FailedStudy:
     """Requested result that could not be obtained: a loop at a point, its joint channels, a sweep.
 
     ``verdict`` is the one that follows from ``reason`` without figures: fail or not applicable; None if it was not
@@ -184,7 +184,7 @@ class StabilityStudy:
     loops: tuple[LoopReport, ...]
     joint: tuple[JointReport, ...]
     sweeps: tuple[SweepReport, ...]
-    unstudied: tuple[Unstudied, ...]
+    unstudied: tuple[FailedStudy, ...]
     seconds: float
     orders: Orders | None = None
 

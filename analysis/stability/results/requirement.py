@@ -88,7 +88,7 @@ def combine_verdicts(verdicts: Iterable[MarginVerdict]) -> MarginVerdict:
     )
 
 
-def grows(outside: Sequence[str], most: int = 4) -> str:
+def describe_instability(outside: Sequence[str], most: int = 4) -> str:
     """Return a text on the instability outside of a loop."""
     if not outside:
         return ""

@@ -12,7 +12,7 @@ import numpy as np
 
 from ....common.percent import short_percent
 from ..failure import Failure
-from ..flown import FlightDocument, StudyResult, strict
+from ..flown import FlightDocument, StudyResult, strict_number
 from ..units import unit_of_expression
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .uncertainty import CONFIDENCE, significant_digits
@@ -85,8 +85,8 @@ class RareOutcome(StudyResult):
         return [self._failure(trial, row) for trial, row in enumerate(self._places.tolist())]
 
     def _failure(self, trial: int, row: int) -> FailedFlight:
-        distance, margin = float(np.linalg.norm(self.flown.points[row])), strict(self.flown.values[row])
-        failure = FailedFlight(trial=trial, distance=distance, margin=margin, **self.flown.fact(row))
+        distance, margin = float(np.linalg.norm(self.flown.points[row])), strict_number(self.flown.values[row])
+        failure = FailedFlight(trial=trial, distance=distance, margin=margin, **self.flown.simulation_json(row))
         if self.noise.sources:
             failure["streams"] = self.flown.streams(row)
         return failure
@@ -129,7 +129,7 @@ class RareOutcome(StudyResult):
             "probability": self.probability,
             "interval": list(self.interval),
             "confidence": CONFIDENCE,
-            "variation": strict(simulation.interval.variation),
+            "variation": strict_number(simulation.interval.variation),
             "flights": self.flights,
             "brute_force_flights": self.brute_force,
             "families": simulation.families,
@@ -142,7 +142,7 @@ class RareOutcome(StudyResult):
     def _level(self, level: Level) -> dict[str, object]:
         source = None if level.source is None else self.noise.sources[level.source]
         return vars(level) | {
-            "threshold": None if level.threshold is None else strict(level.threshold),
+            "threshold": None if level.threshold is None else strict_number(level.threshold),
             "source": source,
             "trusted": level.trusted,
         }

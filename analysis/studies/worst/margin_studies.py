@@ -26,10 +26,10 @@ from ...stability.point.point_study import PointStudy
 from ..flights import plan_of_samples, study_provenance
 from ..noise import make_samples, noise_of
 from .objective import margin_columns
-from .request import MarginAsked
+from .request import MarginRequest
 
 
-class Studied(NamedTuple):
+class MarginSamples(NamedTuple):
     """Margins of draws, in the form of a simulation's metrics: columns by name, and a mask of rows that exist."""
 
     metrics: dict[str, np.ndarray]
@@ -45,7 +45,7 @@ class MarginStudies:
     """
 
     def __init__(
-        self, asked: MarginAsked, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
+        self, asked: MarginRequest, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
     ) -> None:
         self._count = worker_count(workers)
         self._plan = plan_of_samples(replace(asked.plan, campaign=replace(asked.plan.campaign, faults=())), first)
@@ -67,7 +67,7 @@ class MarginStudies:
             self._pool = self._held.enter_context(pool)
         self._progress = progress_bar(unit="study")
 
-    def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
+    def fly(self, columns: Columns, streams: Streams) -> tuple[MarginSamples, Mapping[str, np.ndarray]]:
         """Return the margins of samples with these random streams, in order, and the drawn and derived values.
 
         ``streams`` are those of all sources of noise, by component. Raises InputError.
@@ -80,7 +80,7 @@ class MarginStudies:
             self.reasons.append(margins if isinstance(margins, str) else "")
             rows.append(None if isinstance(margins, str) else margins)
             self._progress.update()
-        studied = Studied(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
+        studied = MarginSamples(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
         return studied, plan.draws.of_part(range(plan.campaign.trials)).columns
 
     def _read_result(self, plans: Sequence[BatchPlan]) -> Iterable[list[LoopMargins] | str]:
@@ -96,7 +96,7 @@ class MarginStudies:
         self._held.__exit__(*problem)
 
 
-def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
+def _nominal(asked: MarginRequest) -> tuple[PointStudy, list[int]]:
     """Return the study of the point without draws, and its relevant memory cells. Raises InputError."""
     where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
     remedy = "search a margin that perilune stability can study"
@@ -122,7 +122,7 @@ def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[L
 _begun: tuple[PointStudy, Sequence[int]] | None = None  # state of a worker process
 
 
-def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
+def _begin(asked: MarginRequest, cells: Sequence[int]) -> None:
     global _begun
     _begun = asked.open_request(), cells
 

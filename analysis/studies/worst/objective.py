@@ -13,7 +13,7 @@ from ...campaigns.definition.campaign import Campaign
 from ...campaigns.definition.expressions import Expression
 from ...stability.loops.margin_values import UNSTABLE, LoopMargins, MarginQuantity
 from ..failure import failure_of
-from ..flown import strict
+from ..flown import strict_number
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Objective:
     text: str
     of: Callable[[Mapping[str, np.ndarray], np.ndarray], np.ndarray]
     size: Callable[[float], float] = float
-    fact: Callable[[float], float | str | None] = strict
+    fact: Callable[[float], float | str | None] = strict_number
     expression: Expression | None = None
 
     def __call__(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
@@ -108,4 +108,4 @@ def _size(value: float) -> float:
 
 
 def _fact(size: float) -> float | str | None:
-    return "unstable" if size == UNSTABLE else "unlimited" if size >= MOST else strict(size)
+    return "unstable" if size == UNSTABLE else "unlimited" if size >= MOST else strict_number(size)

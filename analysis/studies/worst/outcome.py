@@ -11,7 +11,7 @@ import numpy as np
 from ..flown import FlightDocument, StudyResult
 from ..units import unit_of_expression
 from .objective import Objective
-from .realisations import ONE, Fresh, Realisations
+from .realisations import ONE, FreshNoise, Realisations
 from .search import SearchPhase
 
 
@@ -51,7 +51,7 @@ class WorstOutcome(StudyResult):
     random: int
     random_trials: int
     over: Realisations | None = None
-    fresh: Fresh | None = None
+    fresh: FreshNoise | None = None
     noise_matters: bool | None = None
     reason: str = ""
     phases: tuple[SearchPhase, ...] = ()
@@ -59,7 +59,11 @@ class WorstOutcome(StudyResult):
     @property
     def worst(self) -> WorstFlight:
         """Worst simulation: ``value`` (None if it failed), ``trial`` in worst.parquet, ``draws``, ``metrics``."""
-        return {"trial": 0, "value": self.as_json(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
+        return {
+            "trial": 0,
+            "value": self.as_json(self.value),
+            **self.flown.simulation_json(self.places[0], self.badness.fact),
+        }
 
     @property
     def worst_random(self) -> RandomFlight:
@@ -67,7 +71,12 @@ class WorstOutcome(StudyResult):
         place = self.flown.points[self.random]
         inside = bool(np.all((place >= 0.0) & (place <= 1.0)))
         value = self.as_json(float(self.flown.values[self.random]))
-        return {"trial": 1, "value": value, "inside": inside, **self.flown.fact(self.random, self.badness.fact)}
+        return {
+            "trial": 1,
+            "value": value,
+            "inside": inside,
+            **self.flown.simulation_json(self.random, self.badness.fact),
+        }
 
     @property
     def flown_text(self) -> str:

@@ -84,7 +84,7 @@ class FreshDocument(TypedDict):
 
 
 @dataclass(frozen=True, eq=False)
-class Fresh:
+class FreshNoise:
     """Worst point under fresh noise: ``values`` (realisations,) of the objective; larger is worse."""
 
     values: np.ndarray

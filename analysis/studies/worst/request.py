@@ -26,7 +26,7 @@ OF_FLIGHTS = {  # with the remedy for a search for a margin
 
 
 @dataclass(frozen=True)
-class MarginAsked:
+class MarginRequest:
     """Loop at an operating point of a study with a campaign; small enough to be sent to every worker."""
 
     request: Request
@@ -59,7 +59,7 @@ def check_options(loop: str | None, options: Mapping[str, object]) -> None:
             raise InputError(f"`{name}`", "", "does not go with `loop`", remedy)
 
 
-def margin_asked(
+def request_margin(
     system: str | Path,
     options: SystemOptions,
     *,
@@ -69,7 +69,7 @@ def margin_asked(
     point: str | None,
     at: float | None,
     seed: int | None,
-) -> MarginAsked:
+) -> MarginRequest:
     """Return the request for a loop of a system, or a connector cut at the time ``at`` (s), over a campaign's draws.
 
     ``point`` is required if the loop has several, ``configuration`` if the campaign has. Raises InputError.
@@ -90,4 +90,4 @@ def margin_asked(
         raise InputError("`loop`", loop, problem, f"choose: {points}")
     if point is not None and point not in studied_loop.points:
         raise InputError("`point`", point, f"{loop} has no such point", f"give {' or '.join(studied_loop.points)}")
-    return MarginAsked(request, studied_loop, request.point(point or studied_loop.points[0]))
+    return MarginRequest(request, studied_loop, request.point(point or studied_loop.points[0]))

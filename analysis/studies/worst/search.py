@@ -134,7 +134,7 @@ def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.rando
     return np.vstack([slope > 0.0, others]).astype(float)
 
 
-def _to_ends(counted: _Counted) -> None:
+def _move_to_edges(counted: _Counted) -> None:
     """Move one coordinate of the best point at a time to an end of its edge, as long as the value increases."""
     dimensions = counted.point.size
     before = -np.inf
@@ -152,7 +152,7 @@ def _climb(counted: _Counted) -> None:
         return -float(counted(point[np.newaxis])[0])
 
     counted.begin("ends of each parameter")
-    _to_ends(counted)
+    _move_to_edges(counted)
     bounds = [(0.0, 1.0)] * counted.point.size
     smooth = {"maxfev": counted.left // 2, "initial_tr_radius": RADII[0], "final_tr_radius": RADII[1]}
     if smooth["maxfev"] > 2 * counted.point.size + 1:  # evaluations of its first model

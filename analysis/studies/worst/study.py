@@ -23,8 +23,8 @@ from ..units import units_of
 from .margin_studies import MarginStudies
 from .objective import SIZES, Objective, margin_objective, metric_objective
 from .outcome import WorstOutcome
-from .realisations import REALISATIONS, Fresh, Realisations, read_realisations
-from .request import MarginAsked
+from .realisations import REALISATIONS, FreshNoise, Realisations, read_realisations
+from .request import MarginRequest
 from .search import LEAST, SearchPhase, largest
 
 FLIGHTS = 2000
@@ -87,7 +87,7 @@ def worst_case(
 
 
 def worst_margin(
-    asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[WorstCaseOptions]
+    asked: MarginRequest, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[WorstCaseOptions]
 ) -> WorstOutcome:
     """Search for the draws that minimise the least margin of a loop's channels, in the box of `worst_case`.
 
@@ -146,7 +146,7 @@ class _Search:
             problem = f"none of {len(values)} random trials is within {sigmas:g} sigmas in all draws"
             raise InputError("`sigmas`", f"{sigmas:g}", problem, "give more")
         left = budget - points.flights
-        points.leave_out_noise_without_effect()
+        points.drop_ineffective_noise()
         place, value, phases = largest(
             lambda points_: points.fly(points_, space.from_box(points_, sigmas)),
             places[inside],
@@ -199,19 +199,19 @@ class _Points:
         self._varied |= bool(np.any(rows != rows[:, :1]))
         return rows[:, 0] if self.over is None or count == 1 else self.over.objective(rows)
 
-    def leave_out_noise_without_effect(self) -> None:
+    def drop_ineffective_noise(self) -> None:
         """Use one realisation after the random trials if noise has not changed the value of any."""
         if self.realisations > 1:
             self.effect = self._varied
             self.realisations = self.realisations if self._varied else 1
 
-    def fly_fresh(self, row: int, names: Sequence[str]) -> Fresh:
+    def fly_fresh(self, row: int, names: Sequence[str]) -> FreshNoise:
         """Simulate the point of a row with noise that no simulation of the search had."""
         assert self.over is not None
         whole, count = self.flown.whole(), self.over.fresh
         columns = {name: np.full(count, whole.draws[name][row]) for name in names}
         values = self._fly(np.tile(whole.points[row], (count, 1)), columns, self.over.count + np.arange(count))
-        return Fresh(values, self.over.quantile)
+        return FreshNoise(values, self.over.quantile)
 
     def row_of(self, place: np.ndarray, value: float) -> int:
         """Return the first simulation with the point's objective, since a quantile is the value of a simulation."""

@@ -18,7 +18,7 @@ from ...campaigns.columns import describe_metrics
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
-from ...campaigns.definition.sweeps import part_sweeps
+from ...campaigns.definition.sweeps import split_sweeps
 from ...campaigns.draws.given import ALL, GivenDraws
 from ...campaigns.execute.campaign import LoadedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
@@ -36,7 +36,7 @@ from .arguments import read_requirements
 
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
     """Read the plan of a campaign with the options of a verb. Raises InputError."""
-    settings, sweeps = part_sweeps(system_options(options))
+    settings, sweeps = split_sweeps(system_options(options))
     if sweeps and "trials" not in options:  # a study, which samples the campaign itself
         name, text = next(iter(sweeps.items()))
         raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
@@ -116,7 +116,8 @@ def warn_of_foreign_fmus(campaign: LoadedCampaign) -> None:
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)
     if foreign:
         warnings.warn(
-            f"{campaign.named or campaign.folder}: simulates its foreign FMUs {', '.join(foreign)}", stacklevel=2
+            f"{campaign.user_folder or campaign.folder}: simulates its foreign FMUs {', '.join(foreign)}",
+            stacklevel=2,
         )
 
 

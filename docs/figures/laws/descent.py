@@ -15,7 +15,7 @@ from perilune.analysis.documents.common.colours import look
 from perilune.analysis.documents.common.style import house_style, new_figure
 from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from ..pictures import IMAGES, write_picture
 
@@ -61,4 +61,4 @@ def draw_descent_laws(flights: Mapping[str, FlightResult], folder: Path = IMAGES
 
 if __name__ == "__main__":
     print(draw_descent_laws(simulate_laws()))
-    leave(0)
+    exit_process(0)

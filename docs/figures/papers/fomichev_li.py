@@ -17,7 +17,7 @@ from perilune.analysis.documents.common.colours import look
 from perilune.analysis.documents.common.style import house_style, new_figure
 from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
-from perilune.common.process import leave
+from perilune.common.process import exit_process
 
 from ..pictures import IMAGES, write_picture
 
@@ -90,4 +90,4 @@ if __name__ == "__main__":
         for near, far in RANGES:
             difference = largest_difference(flown[method], flown["A*"], near, far)
             print(f"  {near:g} to {far:g} m: at most {100.0 * difference:.2f} %")
-    leave(0)
+    exit_process(0)

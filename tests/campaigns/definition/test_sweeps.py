@@ -17,7 +17,7 @@ import perilune
 from perilune.analysis.campaigns.definition.campaign import Campaign
 from perilune.analysis.campaigns.definition.distributions import Grid
 from perilune.analysis.campaigns.definition.expressions import Expression
-from perilune.analysis.campaigns.definition.sweeps import part_sweeps, with_sweeps
+from perilune.analysis.campaigns.definition.sweeps import split_sweeps, with_sweeps
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -55,7 +55,7 @@ def _campaign(trials=12, **others):
 
 def test_which_texts_are_sweeps():
     requested = {"a.b": " 1:5:0.5 ", "a.c": "1", "a.d": 2.0, "a.e": "file:a:b", "a.f": "1:5", "a.g": [1, 2]}
-    options, sweeps = part_sweeps(SystemOptions(set=requested))
+    options, sweeps = split_sweeps(SystemOptions(set=requested))
     assert sweeps == {"a.b": "1:5:0.5"}
     assert dict(options.set) == {name: value for name, value in requested.items() if name != "a.b"}
 

@@ -66,14 +66,14 @@ def test_a_batch_goes_on_with_another_timeout(tmp_path):
 
 
 def test_a_folder_of_an_earlier_version_goes_on(tmp_path, monkeypatch):
-    gather = opening.gather
+    gather = opening.make_manifest
 
     def gather_as_before(plan, systems):
         manifest, contents = gather(plan, systems)
         return replace(manifest, identities=None), contents
 
     with monkeypatch.context() as patch:
-        patch.setattr(opening, "gather", gather_as_before)
+        patch.setattr(opening, "make_manifest", gather_as_before)
         simulate(tmp_path, trials=26)
     before = files_of(tmp_path)
     manifest = json.loads((tmp_path / "manifest.json").read_text())

@@ -33,7 +33,7 @@ def test_the_identity_of_level_0(states: int, inputs: int, most: int) -> None:
     """B^- (A + B K) = Phi_0 B^-, however badly conditioned the closed loop."""
     for a, b, _, poles in random_systems(COUNT, states, inputs, most_pairs=most, seed=9):
         levels = decompose(a, b)
-        parts = Spectrum.of(poles, states).rank([level.rank for level in levels])
+        parts = Spectrum.of(poles, states).split_by_speed([level.rank for level in levels])
         gain, inverse = assemble(levels, [part.matrix for part in parts])
         closed_loop = a + b @ gain
         left = inverse @ closed_loop - parts[0].matrix @ inverse

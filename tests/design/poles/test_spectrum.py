@@ -38,7 +38,7 @@ def test_spreads_use_every_pole_once_and_fail_only_where_pairs_cannot_fit(spectr
     sizes = [*sizes, spectrum.size - sum(sizes)]
     if sizes[-1] < 0:
         return
-    for parts in (spectrum.deal(sizes), spectrum.rank(sizes)):
+    for parts in (spectrum.distribute(sizes), spectrum.split_by_speed(sizes)):
         if parts is None:
             assert len(spectrum.pairs) > sum(size // 2 for size in sizes)
             continue
@@ -51,8 +51,8 @@ def test_spreads_use_every_pole_once_and_fail_only_where_pairs_cannot_fit(spectr
 
 def test_the_fastest_come_first_and_neighbours_apart() -> None:
     spectrum = Spectrum.of([-1.0, -2.0, -3.0, -4.0], 4)
-    assert [part.real for part in spectrum.rank([2, 2])] == [(-4.0, -3.0), (-2.0, -1.0)]
-    assert [part.real for part in spectrum.deal([2, 2])] == [(-4.0, -2.0), (-3.0, -1.0)]
+    assert [part.real for part in spectrum.split_by_speed([2, 2])] == [(-4.0, -3.0), (-2.0, -1.0)]
+    assert [part.real for part in spectrum.distribute([2, 2])] == [(-4.0, -2.0), (-3.0, -1.0)]
 
 
 def test_splits_are_all_and_real() -> None:

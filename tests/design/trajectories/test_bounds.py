@@ -52,19 +52,19 @@ def landing():
 def test_transfer_at_its_time(intervals, fraction):
     path = solve_fixed_time(transfer_problem(HOVER, TRANSFER), 67.5, intervals)
     assert path.propellant_fraction == pytest.approx(fraction, abs=5e-7)
-    assert path.looseness <= TIGHT
+    assert path.slack <= TIGHT
 
 
 def test_transfer_over_all_times(transfer):
     assert transfer.propellant_fraction == pytest.approx(0.044807, abs=either(5e-6, 1e-5))
     assert transfer.time[-1] == pytest.approx(67.5, abs=0.2)
-    assert transfer.looseness <= TIGHT
+    assert transfer.slack <= TIGHT
 
 
 def test_landing(landing):
     assert landing.propellant_fraction * LANDER.mass == pytest.approx(400.82, abs=0.01)
     assert landing.time[-1] == pytest.approx(292.65, abs=0.1)
-    assert landing.looseness <= TIGHT
+    assert landing.slack <= TIGHT
     burns = landing.make_path(landing_problem(LANDER, LANDING)).burns()
     assert np.array(burns) == pytest.approx(np.array([[0.0, 65.8], [112.2, 292.65]]), abs=0.4)
 
@@ -74,7 +74,7 @@ def test_the_engines_least_thrust_costs_grams():
         solve_fixed_time(landing_problem(replace(LANDER, minimum_thrust=minimum), LANDING), 292.65, INTERVALS)
         for minimum in (340.0, 0.0)
     )
-    assert burning.looseness <= TIGHT
+    assert burning.slack <= TIGHT
     more = LANDER.mass * (burning.propellant_fraction - free.propellant_fraction)
     assert more == pytest.approx(0.0026, abs=1e-3)
 
@@ -98,7 +98,7 @@ def test_a_direct_method_finds_the_same(case):
     problem, mass = CASES[case]
     actual = bound(problem)
     fraction, duration = direct_propellant(problem, INTERVALS)
-    assert actual.looseness <= TIGHT
+    assert actual.slack <= TIGHT
     assert fraction * mass == pytest.approx(actual.propellant_fraction * mass, abs=0.01)
     assert duration == pytest.approx(actual.time[-1], rel=either(1e-3, 5e-3))
 

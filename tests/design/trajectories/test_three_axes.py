@@ -50,7 +50,7 @@ def test_it_is_the_path_of_another_formulation(descent, time):
     assert impulse == pytest.approx(expected.impulse, rel=2e-6)
     assert impulse < expected.impulse * (1.0 + 1e-8)
     assert actual.position == pytest.approx(expected.position, abs=2e-4 * np.linalg.norm(descent.position))
-    assert actual.looseness < 1e-6
+    assert actual.slack < 1e-6
 
 
 def test_random_approaches_keep_their_limits():

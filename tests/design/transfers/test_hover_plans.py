@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from perilune.analysis.design.trajectories.path import PlanError
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
 from perilune.analysis.design.transfers.hover_study import hover_study
-from perilune.analysis.design.transfers.programme import Programme, find_programme, over_distance, over_duration
+from perilune.analysis.design.transfers.programme import Programme, find_programme, sweep_distance, sweep_duration
 from perilune.analysis.design.transfers.true_optimum import find_true_optimum
 from perilune.common import progress
 from perilune.fmus_src.mathlib.hover.shape import HoverProgramme
@@ -94,7 +94,7 @@ def test_figure_7():
 
 
 def test_nearly_a_line_beyond_700_m(best):
-    distances, fractions = over_distance(best)
+    distances, fractions = sweep_distance(best)
     far = (distances >= 700.0) & (distances <= 1600.0)
     assert np.sum(far) > 5
     assert np.max(np.abs(fractions - 0.033349 - 1.0102e-5 * distances)[far]) < 2.5e-5
@@ -103,7 +103,7 @@ def test_nearly_a_line_beyond_700_m(best):
 
 
 def test_least_where_it_is_said_to_be(best):
-    durations, fractions = over_duration(best)
+    durations, fractions = sweep_duration(best)
     assert np.nanargmin(fractions) == np.flatnonzero(durations == best.duration)[0]
     derivatives = np.diff(fractions) / np.diff(durations)
     assert np.all(np.diff(derivatives[np.isfinite(derivatives)]) > 0.0)  # convex about its least

@@ -19,7 +19,7 @@ from perilune.analysis.documents.figures.declared import (
     UnavailableFigure,
 )
 from perilune.analysis.documents.figures.reading import read_figures
-from perilune.analysis.runtime.flight.program import layout_of
+from perilune.analysis.runtime.flight.program import make_layout
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -245,7 +245,7 @@ def test_signals_are_those_that_a_flight_records(tiny, tmp_path):
     prepared = prepare_system(pack(tmp_path / "s.ssp", tiny, ssd))
     with Simulation(prepared) as simulation:
         result = simulation.fly()
-    actual = layout_of(prepared.network, prepared.settings)
+    actual = make_layout(prepared.network, prepared.settings)
     assert actual.types == result.types
     assert actual.units == result.units
 

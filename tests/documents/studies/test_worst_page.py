@@ -14,7 +14,7 @@ from perilune.analysis.documents.of.studies.worst_figures import box_chart, fres
 from perilune.analysis.documents.of.studies.worst_points import box_lanes, objective_of, point_values
 from perilune.analysis.studies.flown import Flown
 from perilune.analysis.studies.noise import Noise
-from perilune.analysis.studies.worst.realisations import Fresh, Realisations
+from perilune.analysis.studies.worst.realisations import FreshNoise, Realisations
 from tests.documents.leads import assert_lead_everywhere
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
@@ -96,7 +96,7 @@ def noisy(result, matters):
     }
     metrics = {name: column[:count] for name, column in result.flown.metrics.items()}
     flown.add(result.flown.points[:count], plotted, metrics, result.flown.values[:count])
-    fresh = Fresh(result.flown.values[count - 9 : count], 0.5)
+    fresh = FreshNoise(result.flown.values[count - 9 : count], 0.5)
     return replace(
         result, flown=flown.whole(), over=Realisations(3, 0.5), fresh=fresh, noise_matters=matters, random_trials=10,
         noise=Noise(("imu",), None, 7), plan=None, phases=(),

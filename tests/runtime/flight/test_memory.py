@@ -45,7 +45,7 @@ def saved(simulation):
     """Return the memory at SAVED, and its saved state."""
     memory = simulation.memory()
     fly(simulation, -1, SAVED)
-    return memory, memory.take(SAVED)
+    return memory, memory.save(SAVED)
 
 
 def assert_same(one, other):
@@ -75,7 +75,7 @@ def test_put_back_it_flies_on_as_it_did(simulation):
     end = memory.read().copy()
     assert_same({name: values[SAVED + 1 :] for name, values in whole.items()}, first)
     fly(simulation, -1, 7)
-    memory.put_back(snapshot)
+    memory.restore(snapshot)
     assert memory.read().tobytes() == before.tobytes()
     assert_same(first, fly(simulation, SAVED, LAST))
     assert memory.read().tobytes() == end.tobytes()
@@ -102,13 +102,13 @@ def test_one_cell_is_changed_and_nothing_else(simulation):
     assert len(whole) > 2
     for place, cell in enumerate(memory.cells):
         value = before[place] + 0.1 + 1e-9 * place
-        memory.put_back(snapshot, cell, value)
+        memory.restore(snapshot, cell, value)
         after = memory.read().copy()
         assert after[place] == value, cell.name
         after[place] = before[place]
         assert after.tobytes() == before.tobytes(), cell.name
         assert whole_numbers(simulation) == whole
-    memory.put_back(snapshot)
+    memory.restore(snapshot)
     unchanged = fly(simulation, SAVED, LAST)
     fly(simulation, -1, SAVED)
     assert_same(unchanged, fly(simulation, SAVED, LAST))
@@ -119,10 +119,10 @@ def test_a_changed_cell_acts_as_the_equations_say(simulation):
     memory, snapshot = saved(simulation)
     places = {cell.name: index for index, cell in enumerate(memory.cells)}
     before, expected = memory.read().copy(), {}
-    memory.put_back(snapshot)
+    memory.restore(snapshot)
     base = fly(simulation, SAVED, SAVED + 3)
     for name, change in (("plant.velocity", 0.5), ("late.line[1]", 2.0), ("late.line[2]", 2.0)):
-        memory.put_back(snapshot, memory.cells[places[name]], before[places[name]] + change)
+        memory.restore(snapshot, memory.cells[places[name]], before[places[name]] + change)
         flown = fly(simulation, SAVED, SAVED + 3)
         expected[name] = flown["plant.position"] - base["plant.position"]
     assert expected["plant.velocity"][:2] == pytest.approx([0.5 * STEP, STEP], abs=1e-12)
@@ -140,7 +140,7 @@ def test_both_flavours_remember_the_same(exact_folder, tmp_path):
             cells = [(cell.name, cell.unit) for cell in memory.cells]
             at_saved = memory.read().copy()
             place = [name for name, _ in cells].index("noise.mean[1]")
-            memory.put_back(snapshot, memory.cells[place], -0.1)
+            memory.restore(snapshot, memory.cells[place], -0.1)
             signals = fly(simulation, SAVED, LAST)
             actual.append((cells, at_saved.tobytes(), signals, memory.read().tobytes()))
     native, python = actual

@@ -51,13 +51,13 @@ def last(flight):
 
 def test_two_are_flown_in_order(simulation):
     for gain in (1.0, 3.0, 5.0):
-        simulation.announce({"odd.gain": gain}, ())
+        simulation.queue_run({"odd.gain": gain}, ())
     assert [last(simulation.run({"odd.gain": gain})) for gain in (1.0, 3.0, 5.0)] == [2.5, 3.5, 4.5]
 
 
 def test_others_fly_instead(simulation):
-    simulation.announce({"odd.gain": 1.0}, ())
-    simulation.announce({"odd.gain": 3.0}, ())
+    simulation.queue_run({"odd.gain": 1.0}, ())
+    simulation.queue_run({"odd.gain": 3.0}, ())
     assert last(simulation.run({"odd.gain": 7.0})) == 5.5
     assert last(simulation.run({"odd.gain": 3.0})) == 3.5
 
@@ -67,8 +67,8 @@ def test_a_flight_that_is_interrupted_does_not_end_the_next_one(simulation):
     simulation.interrupt()
     assert simulation.run({"odd.gain": 1.0}).status == "interrupted"
     simulation.interrupt(False)
-    simulation.announce({"odd.gain": 1.0}, ())
-    simulation.announce({"odd.gain": 3.0}, ())
+    simulation.queue_run({"odd.gain": 1.0}, ())
+    simulation.queue_run({"odd.gain": 3.0}, ())
     assert [last(simulation.run({"odd.gain": gain})) for gain in (1.0, 3.0)] == [2.5, 3.5]
 
 
@@ -78,6 +78,6 @@ def test_who_hangs_in_a_new_process_hangs_once(tmp_path):
     options = replace(OPTIONS, call_timeout=0.5)
     with open_simulation(prepare_system(fmu, options), varied=["odd.gain"]) as opened:
         for gain in (1.0, 3.0):
-            opened.announce({"odd.gain": gain}, ())
+            opened.queue_run({"odd.gain": gain}, ())
         assert opened.run({"odd.gain": 1.0}).status == "hung"
         assert opened.flights == 1

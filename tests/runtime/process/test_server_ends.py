@@ -44,7 +44,7 @@ def test_what_was_under_way_is_simulated_on_another_server(opened, count):
     gains = [1.0, 3.0, 5.0, 7.0]
     for gain in gains[:count]:
         opened.run({"odd.gain": gain})
-    opened.announce({"odd.gain": gains[count]}, ())
+    opened.queue_run({"odd.gain": gains[count]}, ())
     kill_server()
     assert [flight(opened, gain) for gain in gains[count:]] == [
         ("stop_time", "", [0.5 * gain + 2.0]) for gain in gains[count:]

@@ -5,7 +5,7 @@ Truth: the table "Allowed connections" of SSP 2.0, section Connections, row by r
 
 import itertools
 
-from perilune.analysis.runtime.ssp.kinds import leads
+from perilune.analysis.runtime.ssp.kinds import can_connect
 
 KINDS = ("input", "output", "parameter", "calculatedParameter", "structuralParameter", "constant", "local", "inout")
 TABLE = """
@@ -59,6 +59,6 @@ def test_the_table_of_the_standard():
     allowed = {
         (*source, *target)
         for source, target in itertools.product(itertools.product(("System", "Element"), KINDS), repeat=2)
-        if leads(source[1], source[0] == "System", target[1], target[0] == "System")
+        if can_connect(source[1], source[0] == "System", target[1], target[0] == "System")
     }
     assert allowed - OURS == {tuple(line.split()) for line in TABLE.strip().splitlines()}

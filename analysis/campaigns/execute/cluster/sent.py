@@ -16,7 +16,7 @@ from .....common.paths import PACKAGE
 from ...folder.files import DRAWS, write_draws
 from ...folder.manifest import CONTENTS, CampaignManifest, content_path
 from ..campaign import LoadedCampaign
-from ..plan_manifest import gather
+from ..plan_manifest import make_manifest
 from ..workers import in_threads
 
 ROOMS = ("analysis", "common", "fmus_src")
@@ -74,7 +74,7 @@ def make_sent(campaign: LoadedCampaign) -> Sent:
         contents = {name: content_path(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
         draws = b"" if campaign.plan.is_counted else (folder / DRAWS).read_bytes()
     else:
-        described, contents = gather(campaign.plan, campaign.systems)
+        described, contents = make_manifest(campaign.plan, campaign.systems)
         if described != manifest:
             raise InputError(
                 campaign.plan.system, "", "its files changed while they were read", "run the command again"

@@ -16,7 +16,7 @@ from ..campaign import LoadedCampaign
 from ..flights import ShardAssembler
 from . import work
 from .sent import make_sent
-from .tasks import Portions, RetryQueue, Task, WorkersDiedError
+from .tasks import RetryQueue, Task, TaskSplitter, WorkersDiedError
 
 WAITING = 2  # tasks for each thread: one runs, one waits
 LOOK_UP = 1.0  # s, between checks of the workers
@@ -99,7 +99,7 @@ class ShardTasks:
         self.under_way: dict[Any, Task] = {}
         self._client = client
         self._parts = ShardAssembler(campaign.numbering, variants)
-        self._portions = Portions(campaign.numbering, shards, variants)
+        self._portions = TaskSplitter(campaign.numbering, shards, variants)
         self._repeated = RetryQueue()
         self._sent = make_sent(campaign)
         self.key = self._sent.key

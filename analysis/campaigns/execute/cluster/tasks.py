@@ -20,7 +20,7 @@ class WorkersDiedError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Piece:
+class TrialSpan:
     """Trials of one variant within one shard."""
 
     shard: int
@@ -28,33 +28,33 @@ class Piece:
     trials: range
 
 
-class Portions:
+class TaskSplitter:
     """Splitter of shards into tasks sized by measured duration; ``trials`` is the number of remaining trials."""
 
     def __init__(self, numbering: Numbering, shards: Sequence[int], variants: Sequence[str]) -> None:
-        self._left = deque(Piece(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
+        self._left = deque(TrialSpan(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
         self.trials = sum(len(piece.trials) for piece in self._left)
         self._seconds: dict[str, float] = {}  # duration of a trial, by variant
 
-    def record_duration(self, piece: Piece, seconds: float) -> None:
+    def record_duration(self, piece: TrialSpan, seconds: float) -> None:
         self._seconds[piece.variant] = seconds / len(piece.trials)
 
-    def next(self, threads: int) -> list[Piece]:
+    def next(self, threads: int) -> list[TrialSpan]:
         """Return the next task for ``threads`` threads, empty if none is left."""
         slowest = max(self._seconds.values(), default=0.0)
         budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
-        pieces: list[Piece] = []
+        pieces: list[TrialSpan] = []
         while self._left:
             first = self._left[0]
             seconds = self._seconds.get(first.variant)
             count = FIRST if seconds is None else int(budget / max(seconds, QUICKEST))
             if pieces and (seconds is None or not count):
                 break
-            piece = Piece(first.shard, first.variant, first.trials[: max(count, 1)])
+            piece = TrialSpan(first.shard, first.variant, first.trials[: max(count, 1)])
             pieces.append(piece)
             self._left.popleft()
             if len(piece.trials) < len(first.trials):
-                self._left.appendleft(Piece(first.shard, first.variant, first.trials[len(piece.trials) :]))
+                self._left.appendleft(TrialSpan(first.shard, first.variant, first.trials[len(piece.trials) :]))
             if seconds is None:
                 break
             budget -= seconds * len(piece.trials)
@@ -62,20 +62,20 @@ class Portions:
         return pieces
 
 
-def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
+def halve(pieces: Sequence[TrialSpan]) -> list[tuple[TrialSpan, ...]]:
     """Return a task's trials as two tasks, or as one if there is only one trial."""
     first = sum(len(piece.trials) for piece in pieces) // 2
-    parts: tuple[list[Piece], list[Piece]] = ([], [])
+    parts: tuple[list[TrialSpan], list[TrialSpan]] = ([], [])
     for piece in pieces:
         for half, trials in zip(parts, (piece.trials[:first], piece.trials[first:]), strict=True):
             if trials:
-                half.append(Piece(piece.shard, piece.variant, trials))
+                half.append(TrialSpan(piece.shard, piece.variant, trials))
         first = max(0, first - len(piece.trials))
     return [tuple(half) for half in parts if half]
 
 
 OWN = MOST_DEATHS - 1  # largest count of failures before a trial has been a separate task
-Task = tuple[Piece, ...]
+Task = tuple[TrialSpan, ...]
 
 
 class RetryQueue:
@@ -88,7 +88,7 @@ class RetryQueue:
     def add(self, task: Task) -> None:
         """Add a task that was given up, in two halves."""
         times = self._times.pop(task, 0) + 1
-        parts = halves(task)
+        parts = halve(task)
         self._waiting += parts
         self._times |= dict.fromkeys(parts, times if len(parts) == 1 else min(times, OWN))
 
@@ -99,5 +99,5 @@ class RetryQueue:
     def single_trials_left(self, under_way: Iterable[Task]) -> list[Task]:
         """Return all remaining tasks if each is a single trial that was given up often enough; else an empty list."""
         left = [*self._waiting, *under_way]
-        worn = all(len(halves(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)
+        worn = all(len(halve(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)
         return left if worn else []

@@ -20,7 +20,7 @@ from ...trials import TrialTable
 from ..flyer import Flyer
 from ..plan_manifest import restore
 from .sent import Sent, identity, refuse_others
-from .tasks import Piece
+from .tasks import TrialSpan
 
 FOLDER = "perilune"  # within the worker's folder, which dask removes
 MOST_LOADED = 3  # campaigns whose simulations are kept for the next task
@@ -41,7 +41,7 @@ class _LoadedCampaign:
     busy: list[Flyer] = field(default_factory=list)
 
 
-def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[TrialTable, float]]:
+def fly(sent: Sent, task: Sequence[TrialSpan]) -> list[tuple[TrialTable, float]]:
     """Simulate some trials; return those of each piece, with the seconds they took without preparation.
 
     Raises InputError in a worker with another version of Perilune, as workers may join at any time.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....campaigns.lost_trials import lost_of
+from ....campaigns.lost_trials import describe_lost_trials
 from ....commands.campaigns import batch_command
 from ...cell import Code, Quantity
 from ...model import KeyNumbers, Node, Repeat, Text
@@ -20,7 +20,7 @@ def header_nodes(content: BatchContent) -> list[Node]:
         *([Text(campaign.description.removesuffix("."), style="lead")] if campaign.description else []),
         *([] if content.verdicts.has_verdicts else [unjudged_node()]),
         *verdict_nodes(content.verdicts, content.styles, anchors_of(content.replays)),
-        *(Text(["", line], style="fail") for line in lost_of(content.batch.summary)),
+        *(Text(["", line], style="fail") for line in describe_lost_trials(content.batch.summary)),
         Text([
             "success criterion: ", Code(campaign.success.text),
             ". All variants use the same samples of the dispersed parameters",

@@ -7,7 +7,7 @@ from pathlib import PurePath
 
 from .....common.percent import short_percent
 from ....campaigns.summary import CONFIDENCE, SummaryRow, summary_rows
-from ....campaigns.tables import requirement_rows, who_cells, who_heads
+from ....campaigns.tables import group_cells, group_headings, requirement_rows
 from ...cell import Cell
 from ...model import Node, Table, Text
 from ..campaign.metrics import metric_summary
@@ -34,7 +34,7 @@ def notebook_nodes(content: BatchContent) -> list[Node]:
 def _rate_table(rows: Sequence[SummaryRow], group: str | None) -> Table:
     body: list[Sequence[Cell]] = [
         (
-            *who_cells(row, group),
+            *group_cells(row, group),
             row.entry.trials,
             short_percent(row.entry.success_rate),
             " to ".join(short_percent(end) for end in row.entry.success_interval),
@@ -42,7 +42,7 @@ def _rate_table(rows: Sequence[SummaryRow], group: str | None) -> Table:
         )
         for row in rows
     ]
-    return Table((*who_heads(group), "trials", "success, %", interval_head(CONFIDENCE), "statuses"), body)
+    return Table((*group_headings(group), "trials", "success, %", interval_head(CONFIDENCE), "statuses"), body)
 
 
 def _requirement_table(content: BatchContent) -> Table:

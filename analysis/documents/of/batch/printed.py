@@ -16,7 +16,7 @@ from ....campaigns.execute.evaluation import worst_statuses
 from ....campaigns.execute.flyer import TrialResult
 from ....campaigns.execute.results import CampaignResult
 from ....campaigns.judged import worst_trial
-from ....campaigns.lost_trials import lost_of
+from ....campaigns.lost_trials import describe_lost_trials
 from ....campaigns.plain_text import align_columns, short
 from ....campaigns.summary import requirement_values
 from ....campaigns.tables import unmet_lines
@@ -70,7 +70,7 @@ def campaign_problems(result: CampaignResult, requirements: Sequence[Expression]
     for variant, entry in result.summary.items():
         count = sum(count for status, count in entry.statuses.items() if status.startswith(TIMED_OUT))
         lines += [f"{variant}: {count} simulations took longer than the {limit}; give a longer one"] if count else []
-    lines += [f"{line}; `retry_crashed` simulates them again" for line in lost_of(result.summary)]
+    lines += [f"{line}; `retry_crashed` simulates them again" for line in describe_lost_trials(result.summary)]
     values = requirement_values(result.summary)
     # a status that no trial has is missing from the summary and counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}

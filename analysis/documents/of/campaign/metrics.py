@@ -8,7 +8,7 @@ from typing import Literal
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.statistics import QUANTILES, STATISTICS
 from ....campaigns.summary import SummaryRow
-from ....campaigns.tables import who_cells, who_heads
+from ....campaigns.tables import group_cells, group_headings
 from ...cell import Cell, Code, Quantity, Row, RowHeading, Strong
 from ...common.colours import Look
 from ...common.quantities import display_unit
@@ -43,7 +43,7 @@ def metric_summary(rows: Sequence[SummaryRow], metrics: Sequence[Metric], group:
     body: list[Sequence[Cell]] = [
         (
             metric.name,
-            *who_cells(row, group),
+            *group_cells(row, group),
             *(Quantity(values.value(name), values.unit, is_bare=True) for name in STATISTICS),
             display_unit(values.unit),
         )
@@ -51,7 +51,7 @@ def metric_summary(rows: Sequence[SummaryRow], metrics: Sequence[Metric], group:
         for row in rows
         for values in [row.entry.metrics[metric.name]]
     ]
-    return Table(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), body)
+    return Table(("metric, successful trials", *group_headings(group), *STATISTICS, "unit"), body)
 
 
 def metric_heading(metric: Metric) -> RowHeading:

@@ -8,7 +8,7 @@ from functools import partial
 from .....common.percent import short_percent
 from ....campaigns.compare.comparison import CampaignComparison, name_of, rate_text
 from ....campaigns.summary import summary_rows
-from ....campaigns.tables import who_cells, who_heads
+from ....campaigns.tables import group_cells, group_headings
 from ...cell import Cell, Code
 from ...model import Document, Medium, Node, Note, Only, Printed, Section, Table, Text
 from ...pictures import Figure
@@ -97,13 +97,13 @@ def notebook_nodes(content: ComparisonContent) -> list[Node]:
     names = [name_of(rate) for rate in compared.rates]
     rates: list[Sequence[Cell]] = [
         (
-            *who_cells(row, compared.group),
+            *group_cells(row, compared.group),
             row.entry.trials,
             *(rate_text(row.entry.rates[name], short_percent) for name in names),
         )
         for row in rows
     ]
-    heads = (*who_heads(compared.group), "trials", *(f"{name}, %" for name in names))
+    heads = (*group_headings(compared.group), "trials", *(f"{name}, %" for name in names))
     return [
         *map(Text, compared.notes),
         *([] if compared.has_requirements else [unjudged_node()]),

@@ -101,7 +101,8 @@ def _figures(figures: Sequence[Figure]) -> list[Node]:
 def _elsewhere(report: StabilityStudy, shared: SharedFigures, *, at_sight: bool) -> list[Node]:
     """Return a reference to figures shown with another loop: the first ones, or the others."""
     labelled = {
-        other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()
+        other: [label for label in labels if (label in SEEN) == at_sight]
+        for other, labels in shared.labels_by_loop.items()
     }
     same = f", which is the same within {TOLERANCE} pt, half the width of a line."
     return [

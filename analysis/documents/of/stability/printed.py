@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ....stability.loops.margin_values import MARGINS, UNLIMITED, MarginQuantity
-from ....stability.results.report import JointReport, LoopReport, StabilityStudy, Unstudied
+from ....stability.results.report import FailedStudy, JointReport, LoopReport, StabilityStudy
 from ....stability.results.requirement import MarginRequirement, MarginVerdict
 from ....stability.results.varied import SweepCrossing, SweepReport
 from ...render.words import rich_text
@@ -49,7 +49,7 @@ def stability_problems(report: StabilityStudy) -> list[str]:
     return lines
 
 
-def _verdict_line(lost: Unstudied) -> str:
+def _verdict_line(lost: FailedStudy) -> str:
     """Return the line of a loop that has a verdict but no margins."""
     verdict = f": {lost.verdict}" if lost.verdict is MarginVerdict.FAIL else ""
     return f"{lost.name} at {lost.point}: {lost.text}{verdict}"

@@ -36,7 +36,7 @@ class SharedFigures:
     """The figures shown with a loop, and the labels of those shown with another loop, by its index."""
 
     figures: ByPart
-    elsewhere: dict[int, list[str]]
+    labels_by_loop: dict[int, list[str]]
 
 
 @dataclass

@@ -24,15 +24,15 @@ class Exchanged:
         self,
         network: Network,
         wanted: Collection[str] | None,
-        more: Collection[str],
+        additional: Collection[str],
         injections: Sequence[Injection],
     ) -> None:
         self._network = network
         read = {link.source.name for link in network.links()}
         faulty = {injection.connector for injection in injections}
-        self.fetched = None if wanted is None else read | set(wanted) | set(more) | faulty
+        self.fetched = None if wanted is None else read | set(wanted) | set(additional) | faulty
         self.tuned = find_tuned(network, faulty)
-        self.named = {*(wanted or ()), *more}
+        self.named = {*(wanted or ()), *additional}
         signals = [link.source for link in network.links() if not link.is_parameter]
         self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
@@ -41,7 +41,7 @@ class Exchanged:
         """Return True if a tunable parameter changes during simulation."""
         return f"{component}.{variable.name}" in self.tuned
 
-    def is_given(self, name: str) -> bool:
+    def is_set(self, name: str) -> bool:
         """Return True if an input is connected or driven over time."""
         return name in self._network.driver or name in self._network.driven
 

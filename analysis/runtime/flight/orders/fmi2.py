@@ -60,7 +60,7 @@ class Fmi2Orders:
         self._one_by_one = one_by_one
         self._set_once = set_once
 
-    def take_bases(self) -> None:
+    def reset_bases(self) -> None:
         """Reset the slots of parameters that change during simulation to their unchanged values."""
         for _, first, count, base in self._tuned:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
@@ -72,7 +72,7 @@ class Fmi2Orders:
             if stretch[1]:
                 self._rows.inject(stretch)
                 if name == "SetReal":
-                    self._give(stretch, begun)
+                    self._set_reals(stretch, begun)
                 else:
                     self._call(codes.SET_WHOLE, name, stretch)
         if self._text_ranges[0][1]:
@@ -83,7 +83,7 @@ class Fmi2Orders:
             code = codes.SET_REAL if function == FUNCTION["SetReal"] else codes.SET_WHOLE
             self._rows.call(code, self._component, function, (first, count))
 
-    def carry(self) -> None:
+    def apply_input_faults(self) -> None:
         """Apply faults to the input slots without setting the inputs."""
         for _, first, count, _ in self._tuned:
             self._rows.inject((first, count))
@@ -95,7 +95,7 @@ class Fmi2Orders:
         for name in ("GetReal", "GetInteger", "GetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:
-                self._take(name, stretch)
+                self._get_values(name, stretch)
                 self._rows.inject(stretch)
         if self._text_ranges[1][1]:
             self._call(codes.GET_TEXT, "GetString", self._text_ranges[1])
@@ -138,7 +138,7 @@ class Fmi2Orders:
             for start in range(first, first + count, size):
                 self._call(code, name, (start, size))
 
-    def _give(self, stretch: Stretch, begun: int) -> None:
+    def _set_reals(self, stretch: Stretch, begun: int) -> None:
         """Set Reals from a range of slots, directly in the FMU's memory if possible."""
         runs = self._runs(stretch, "Real", to_set=True)
         rows = self._rows.rows
@@ -150,7 +150,7 @@ class Fmi2Orders:
         else:
             self._exchange(codes.PUT_REAL, runs)
 
-    def _take(self, name: str, stretch: Stretch) -> None:
+    def _get_values(self, name: str, stretch: Stretch) -> None:
         """Get Reals, Integers or Booleans into a range of slots, directly from the FMU's memory if possible."""
         kind = name.removeprefix("Get")
         call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE

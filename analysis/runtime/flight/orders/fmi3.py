@@ -25,7 +25,7 @@ class Fmi3Orders:
         self._transfers = transfers
         self._table = table
 
-    def take_bases(self) -> None:
+    def reset_bases(self) -> None:
         """Reset the slots of parameters that change during simulation to their unchanged values."""
         for first, count, base in self._transfers.bases:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
@@ -41,7 +41,7 @@ class Fmi3Orders:
             both = (events[0], len(events))
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
 
-    def carry(self) -> None:
+    def apply_input_faults(self) -> None:
         """Apply faults to the input slots without setting the inputs."""
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))

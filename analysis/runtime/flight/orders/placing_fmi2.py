@@ -41,7 +41,7 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
         for variable in variables:
             name = f"{component}.{variable.name}"
             if CAUSALITIES[function % 2] == "input":
-                if exchanged.is_given(name):
+                if exchanged.is_set(name):
                     start = slots.start(component, variable)
                     slots.add(name, variable.reference, start, variable.type, variable.unit)
             elif exchanged.is_fetched(name):

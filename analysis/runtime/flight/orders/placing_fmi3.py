@@ -12,7 +12,7 @@ from ...fmi.variable import ScalarVariable
 from ...system.network import Network
 from .exchanged import Exchanged
 from .slots import Slots
-from .transfers import ComponentTransfers, TransferTable, groups, needs_events, whole
+from .transfers import ComponentTransfers, TransferTable, group_by_representation, needs_events, select_arrays
 
 
 class TransferPlacing:
@@ -39,28 +39,28 @@ class TransferPlacing:
         variables = network.fmus[component].variables.values()
         numbers = [variable for variable in variables if variable.type not in TEXTS]
         names = {variable.name: f"{component}.{variable.name}" for variable in numbers}
-        driven = {short for short, name in names.items() if exchanged.is_given(name)}
+        driven = {short for short, name in names.items() if exchanged.is_set(name)}
         fetched = {short for short, name in names.items() if exchanged.is_fetched(name)}
-        inputs = whole((each for each in numbers if each.causality == "input"), driven)
+        inputs = select_arrays((each for each in numbers if each.causality == "input"), driven)
         others = {each.array or each.name for each in numbers if names[each.name] in exchanged.other_sources}
         given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
-        outputs = whole(given, fetched)
+        outputs = select_arrays(given, fetched)
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
             mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
-            target += [self._add(component, group, is_given=True) for group in groups(mine)]
-        tuned = whole((each for each in numbers if each.is_tunable), self._select_tuned(component, numbers))
-        for group in groups(tuned):
+            target += [self._add(component, group, is_set=True) for group in group_by_representation(mine)]
+        tuned = select_arrays((each for each in numbers if each.is_tunable), self._select_tuned(component, numbers))
+        for group in group_by_representation(tuned):
             first = len(self._slots.references)
             (transfers.discrete if transfers.uses_events else transfers.inputs).append(
-                self._add(component, group, is_given=True)
+                self._add(component, group, is_set=True)
             )
             transfers.bases.append((first, len(group), self._slots.add_bases(component, group)))
         transfers.discrete += self._add_texts(texts[0])  # after the others, whose numbers must be consecutive
-        transfers.outputs += [self._add(component, group) for group in groups(outputs)]
+        transfers.outputs += [self._add(component, group) for group in group_by_representation(outputs)]
         transfers.outputs += self._add_texts(texts[1])
         named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}
-        recorded = whole((each for each in numbers if each.name in named), named)
-        transfers.recorded += [self._add(component, group) for group in groups(recorded)]
+        recorded = select_arrays((each for each in numbers if each.name in named), named)
+        transfers.recorded += [self._add(component, group) for group in group_by_representation(recorded)]
         unfed = {each.name for each in inputs} - driven | {each.name for each in tuned} - self._select_tuned(
             component, numbers
         )
@@ -72,14 +72,14 @@ class TransferPlacing:
     def _add_texts(self, texts: Sequence[tuple[Sequence[ScalarVariable], int]]) -> list[int]:
         return [self._table.add(group, first) for group, first in texts if group]
 
-    def _add(self, component: str, group: Sequence[ScalarVariable], *, is_given: bool = False) -> int:
+    def _add(self, component: str, group: Sequence[ScalarVariable], *, is_set: bool = False) -> int:
         slots, first = self._slots, len(self._slots.references)
         for number, variable in enumerate(group, first):
             name = f"{component}.{variable.name}"
             initial = np.nan
-            if is_given:
+            if is_set:
                 start = slots.settings.variables.get((component, variable.name), variable.start)
-                if start is None and not self._exchanged.is_given(name):
+                if start is None and not self._exchanged.is_set(name):
                     problem = "has neither a connection, a value nor a start, and its array is given as a whole"
                     raise InputError(self._network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
                 initial = slots.start(component, variable)

@@ -13,7 +13,7 @@ from ...loop import arrays
 from ...system.network import Network
 from ...system.passing.settings import SystemSettings
 from ...system.schedule import origin
-from .transfers import whole
+from .transfers import select_arrays
 
 LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one text, including a String's terminating zero
 
@@ -47,7 +47,7 @@ class TextSlots:
                 first = len(self._references)
                 variables = fmu.variables.values() if links else ()
                 every = [each for each in variables if each.type == type_name and each.causality == causality]
-                selected = whole(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
+                selected = select_arrays(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
                 for variable in selected:
                     given = settings.variables.get((component, variable.name), variable.start or "")
                     self._add(f"{component}.{variable.name}", variable.reference, str(given))

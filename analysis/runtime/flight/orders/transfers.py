@@ -88,20 +88,20 @@ def needs_events(network: Network, component: str) -> bool:
         and any(
             variable.causality == "input"
             and variable.variability == "discrete"
-            and _is_given(network, component, variable)
+            and _is_set_once(network, component, variable)
             for variable in fmu.variables.values()
         )
     )
 
 
-def whole(variables: Iterable[ScalarVariable], selected: Collection[str]) -> list[ScalarVariable]:
+def select_arrays(variables: Iterable[ScalarVariable], selected: Collection[str]) -> list[ScalarVariable]:
     """Return all elements of the variables that are selected by name, entirely or by one element."""
     variables = list(variables)
     arrays = {each.array or each.name for each in variables if each.name in selected}
     return [each for each in variables if (each.array or each.name) in arrays]
 
 
-def groups(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
+def group_by_representation(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
     """Return the variables grouped by representation."""
     parted: dict[str, list[ScalarVariable]] = {}
     for each in variables:
@@ -109,6 +109,6 @@ def groups(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
     return list(parted.values())
 
 
-def _is_given(network: Network, component: str, variable: ScalarVariable) -> bool:
+def _is_set_once(network: Network, component: str, variable: ScalarVariable) -> bool:
     name = f"{component}.{variable.name}"
     return name in network.driver or name in network.driven

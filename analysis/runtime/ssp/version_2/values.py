@@ -39,5 +39,5 @@ def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> 
 
 def _but_number(parameter: etree._Element) -> bytes:
     """Return the content of a Parameter without its name and number, for comparison."""
-    said = [content(inner, ("value",)) for inner in parameter]
-    return b"".join([repr(sorted(each for each in parameter.attrib.items() if each[0] != "name")).encode(), *said])
+    contents = [content(inner, ("value",)) for inner in parameter]
+    return b"".join([repr(sorted(each for each in parameter.attrib.items() if each[0] != "name")).encode(), *contents])

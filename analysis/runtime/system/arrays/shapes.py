@@ -46,7 +46,7 @@ class Shapes:
             names = ", ".join(self.without_arrays)
             note = f"array connectors of FMI 2.0 FMUs ({names}), which need one connector per element"
             description.notes.append(note)
-        self._settle(shapes)
+        self._infer_sizes(shapes)
         for name, shape in shapes.items():
             if None in shape:
                 problem = f"dimension {shape.index(None) + 1} has no size, neither here nor at the other ends"
@@ -87,7 +87,7 @@ class Shapes:
             raise InputError(self.description.file, where, problem, "correct its Dimensions or use another FMU")
         return actual
 
-    def _settle(self, shapes: dict[str, Open]) -> None:
+    def _infer_sizes(self, shapes: dict[str, Open]) -> None:
         """Fill in open sizes from the other ends of connections between whole arrays."""
         ends = [
             (name_of(path, connection.start), name_of(path, connection.end))

@@ -17,7 +17,7 @@ def convert_units(network: Network) -> None:
         source, target = link.source, link.target
         if link.keeps_number or source.unit is None or target.unit is None:
             continue
-        if not source.unit.fits(target.unit):
+        if not source.unit.is_convertible(target.unit):
             problem = f"units do not fit: {source.unit.name} and {target.unit.name}"
             raise network.refuse(link.where, problem, "correct the unit of one end")
         for node in (source, target):

@@ -6,7 +6,7 @@ Truth: the list of all trials, and times that are known beforehand.
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.execute.cluster.tasks import FIRST, LONGEST, SHORTEST, Piece, Portions, halves
+from perilune.analysis.campaigns.execute.cluster.tasks import FIRST, LONGEST, SHORTEST, TaskSplitter, TrialSpan, halve
 from perilune.analysis.campaigns.folder.numbering import Numbering
 
 VARIANTS = ("a", "b")
@@ -30,7 +30,7 @@ def all_of(portions, threads, seconds):
 )
 def test_every_trial_once(trials, size, threads, seconds):
     numbering = Numbering(trials, size)
-    portions = Portions(numbering, range(numbering.count), VARIANTS)
+    portions = TaskSplitter(numbering, range(numbering.count), VARIANTS)
     actual = [piece for task in all_of(portions, threads, seconds) for piece in task]
     flown = [(piece.variant, trial) for piece in actual for trial in piece.trials]
     assert sorted(flown) == [(name, trial) for name in VARIANTS for trial in range(trials)]
@@ -43,7 +43,7 @@ def test_tasks_of_some_seconds(trial, threads):
     """Not longer than they are to be, or one trial; and but for the last one not so short that sending them counts."""
     numbering = Numbering(1000, 25)
     seconds = dict.fromkeys(VARIANTS, trial)
-    tasks = all_of(Portions(numbering, range(40), VARIANTS), threads, seconds)
+    tasks = all_of(TaskSplitter(numbering, range(40), VARIANTS), threads, seconds)
     first = [next(place for place, task in enumerate(tasks) if task[0].variant == name) for name in VARIANTS]
     assert [len(tasks[place][0].trials) for place in first] == [FIRST, FIRST]
     known = [sum(len(piece.trials) for piece in task) for task in tasks[first[1] + 1 :]]
@@ -53,8 +53,8 @@ def test_tasks_of_some_seconds(trial, threads):
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 9)), min_size=1, max_size=6))
 def test_halves(asked):
-    pieces = [Piece(shard, VARIANTS[shard % 2], range(10 * shard, 10 * shard + count)) for shard, count in asked]
-    actual = halves(pieces)
+    pieces = [TrialSpan(shard, VARIANTS[shard % 2], range(10 * shard, 10 * shard + count)) for shard, count in asked]
+    actual = halve(pieces)
     sizes = [sum(len(piece.trials) for piece in half) for half in actual]
     assert max(sizes) - min(sizes) <= 1
     assert len(actual) == min(2, sum(sizes))
