@@ -35,7 +35,7 @@ check: build
 
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build
-	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow' tests --include='test_*.py')
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow|tiny[,)]' tests --include='test_*.py')
 
 # Lines and branches of the product that the suite executes, children too: half an hour to an hour. A failure changes
 # little of the figures, which are printed all the same.

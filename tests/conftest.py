@@ -8,7 +8,7 @@ import math
 import os
 import sys
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from perilune.analysis.shipped import main as build_fmus
 from perilune.common import progress
 from perilune.common.paths import BUILD, shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export import compilers
 from perilune.fmus_src.export.closure import closure_of
 from tests.support.built import native_are_current, systems_are_current
 from tests.support.kernels.programs import NO_QEMU
@@ -131,6 +132,18 @@ def refusal(request: pytest.FixtureRequest) -> Callable[[list[str]], str]:
     return refuse
 
 
+@pytest.fixture(scope="session", autouse=True)
+def usual_platforms() -> Iterator[None]:
+    """Export for this machine alone where no platform is named: zig first builds a platform's C library, up to a
+    minute. `make long` exports for the usual platforms."""
+    usual = dict(compilers.USUAL)
+    if not LONG:
+        local = {fmi: compilers.local_platform(fmi) for fmi in usual}
+        compilers.USUAL.update({fmi: (name,) for fmi, name in local.items() if name is not None})
+    yield
+    compilers.USUAL.update(usual)
+
+
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
@@ -146,9 +159,9 @@ def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made_once(tmp_path_factory, "tiny_fmus", build_tiny_fmus)
 
 
-@pytest.fixture(params=["python", "native"])
+@pytest.fixture(params=either(["python", "native"], ["native"]))
 def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
-    """Return the tiny FMUs, in either flavour."""
+    """Return the tiny FMUs in native flavour, in `make long` in either; some modules take either in any case."""
     return tiny_folder / request.param
 
 

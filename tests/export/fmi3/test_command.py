@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import zipfile
 from pathlib import Path
@@ -12,7 +13,7 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.fmus_src.export import compilers
-from perilune.fmus_src.export.compilers import available_platforms, local_platform
+from perilune.fmus_src.export.compilers import available_platforms, local_platform, platforms_of
 
 pytestmark = pytest.mark.skipif(local_platform(3) is None, reason="FMI 3.0 libraries are not compiled for this system")
 LOCAL = str(local_platform(3))
@@ -70,9 +71,12 @@ def fmpy_platform() -> str:
 
 
 def test_all_platforms_that_can_be_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without zig the local one alone."""
+    """Export compiles for the usual platforms, in `make test` this machine; without zig for the local one alone."""
     assert perilune.export("jet_health", fmi=3).platforms == tuple(available_platforms(3))
     assert libraries("jet_health.fmu") == set(available_platforms(3))
+    monkeypatch.setitem(compilers.USUAL, 3, platforms_of(3))
+    if importlib.util.find_spec("ziglang") is not None:
+        assert available_platforms(3) == platforms_of(3)
     monkeypatch.setattr(compilers.importlib.util, "find_spec", lambda _: None)
     monkeypatch.setattr(compilers.shutil, "which", lambda name: f"/usr/bin/{name}")
     assert available_platforms(3) == [LOCAL]

@@ -21,7 +21,7 @@ from tests.support.foreign.osp import HEAD, libcosim, simulator
 from tests.support.lengths import either
 from tests.support.native.system_fmus import build_one, fly_one
 
-SYSTEM = either("landing_mission", "lunar_landing")
+SYSTEM = either("landing_mission", "lunar_terminal_guidance")
 EXPOSED = ("plant.position", "plant.velocity")
 NAMES = [f"{name}[{axis}]" for name in EXPOSED for axis in (1, 2, 3)]
 ALONE = """
@@ -85,7 +85,10 @@ def test_fmucontainer(fmu, native, tmp_path):
         assert np.array_equal(flown[name], native[name][:501]), name
 
 
-@pytest.mark.parametrize("compiler", [["gcc"], [sys.executable, "-m", "ziglang", "cc"]], ids=["gcc", "zig"])
+ZIG = pytest.param([sys.executable, "-m", "ziglang", "cc"], marks=pytest.mark.slow, id="zig")
+
+
+@pytest.mark.parametrize("compiler", [pytest.param(["gcc"], id="gcc"), ZIG])
 def test_the_line_of_the_readme_compiles_it(fmu, native, tmp_path, compiler):
     """Without a warning; the same bits."""
     folder = Path(fmpy.extract(str(fmu), str(tmp_path / "unzipped")))

@@ -23,15 +23,15 @@ from perilune.analysis.runtime.loop import library
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.compilers import PLATFORMS, local_platform
+from perilune.fmus_src.export.compilers import compilers_for, local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.export.fmi3.test_platforms import LIBRARIES
-from tests.support.kernels.programs import NO_QEMU, QEMU, ZIG
+from tests.support.kernels.programs import NO_QEMU, QEMU
 from tests.support.lengths import LONG, either
 from tests.support.native.frozen_run import freeze_run
 from tests.support.native.wine import WINE, fresh_windows
 
-NAME = "spacecraft"
+NAME = either("spacecraft", "flat_moon_lander")
 STEPS = either(2000, 100)
 RUNNERS = {
     "x86_64-linux": [],
@@ -54,7 +54,8 @@ def windows() -> Iterator[dict[str, str]]:
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("fmu") / f"{NAME}.fmu"
-    return build_native_fmu(catalogue()[NAME], path, platforms=list(RUNNERS), portable=True, fmi=3)
+    platforms = [name for name in RUNNERS if LONG or name != "x86_64-windows"]
+    return build_native_fmu(catalogue()[NAME], path, platforms=platforms, portable=LONG, fmi=3)
 
 
 @pytest.fixture(scope="module")
@@ -90,11 +91,11 @@ def test_a_program_in_c_has_the_bits_of_this_machine(fmu, case, platform, reques
         for name in archive.namelist():
             if name.startswith((f"binaries/{platform}/", "sources/fmi3")):
                 (tmp_path / Path(name).name).write_bytes(archive.read(name))
-    (target,) = PLATFORMS[platform].zig_targets
+    (compiler,) = compilers_for(platform, LONG)
     program, extension = ("program.exe", "dll") if is_windows else ("program", "so")
     options = [*library.FLAGS, "-I", ".", *([] if is_windows else ["-Wl,-rpath,$ORIGIN"])]
     flags = [flag for flag in options if flag not in ("-shared", "-fPIC")]
-    command = [*ZIG, "-target", target, *flags, "-o", program, str(FROZEN), f"{NAME}.{extension}", "-lm"]
+    command = [*compiler, *flags, "-o", program, str(FROZEN), f"{NAME}.{extension}", "-lm"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     done = subprocess.run(

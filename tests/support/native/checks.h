@@ -37,7 +37,8 @@ static void spoil(void *state, size_t length)
     if (draw(2)) {
         memcpy(bytes, &extremes[draw(sizeof extremes / sizeof extremes[0])], 8);
     } else {
-        bytes[draw(8)] = (unsigned char)draw(256);
+        const size_t place = draw(8); /* in this order for every compiler */
+        bytes[place] = (unsigned char)draw(256);
     }
 }
 

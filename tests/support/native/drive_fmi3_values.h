@@ -18,7 +18,8 @@ static double number(void)
 {
     const double odd[] = {0.0, -0.0, 1.0, -1.0, 1e-310, 1e300, -1e308, INFINITY, -INFINITY, NAN};
     if (draw(200) == 0) return odd[draw(sizeof odd / sizeof odd[0])];
-    return ldexp((double)draw(1 << 30) / (1 << 29) - 1.0, (int)draw(20) - 6);
+    const double fraction = (double)draw(1 << 30) / (1 << 29) - 1.0; /* in this order for every compiler */
+    return ldexp(fraction, (int)draw(20) - 6);
 }
 
 /* ---- a variable by its type ---- */
