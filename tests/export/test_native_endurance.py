@@ -67,7 +67,7 @@ def test_memory_is_flat_over_resets() -> None:
     assert sizes[-1] - sizes[0] < FLAT, sizes
 
 
-@pytest.mark.parametrize("block", BLOCKS[:: either(1, 6)], ids=lambda block: block.fmu_name)
+@pytest.mark.parametrize("block", BLOCKS[:: either(1, 12)], ids=lambda block: block.fmu_name)
 def test_after_reset_an_instance_is_as_new(block: type[Block]) -> None:
     fresh, used = NativeInstance(block), NativeInstance(block)
     new = state_of(fresh)
@@ -82,7 +82,7 @@ def test_after_reset_an_instance_is_as_new(block: type[Block]) -> None:
     used.free()
 
 
-@pytest.mark.parametrize("block", BLOCKS[:: either(1, 8)], ids=lambda block: block.fmu_name)
+@pytest.mark.parametrize("block", BLOCKS[:: either(1, 20)], ids=lambda block: block.fmu_name)
 def test_flights_in_threads_have_the_bits_of_flights_in_turn(block: type[Block]) -> None:
     def fly(key: int) -> list[bytes]:
         instance = NativeInstance(block)

@@ -18,7 +18,7 @@ from tests.support.native.sanitizers import find_compiler
 
 DRIVER = Path(kernels.__file__).with_name("sanitize_fmu.c")
 # Those with the most lists, random numbers, searches and vectors between them.
-DENSE = ("kalman_navigation", "jet_allocation_least_propellant", "free_flying_robot")
+DENSE = ("kalman_navigation", "jet_allocation_least_propellant")
 BLOCKS = [block for block in catalogue().values() if not block.python_only and (LONG or block.fmu_name in DENSE)]
 STEPS = lengths.size(200)
 

@@ -77,7 +77,7 @@ def drawn(block: type[Block], kind: type, random: Random, h: float, before: list
     return [r for r, _, _ in chosen], values
 
 
-@pytest.mark.parametrize("block", BLOCKS[:: either(1, 6)], ids=lambda block: block.fmu_name)
+@pytest.mark.parametrize("block", BLOCKS[:: either(1, 12)], ids=lambda block: block.fmu_name)
 @pytest.mark.usefixtures("fmus")
 def test_three_faces_agree(block: type[Block]) -> None:
     files = [shipped_fmu(block.fmu_name, flavour) for flavour in ("python", "native")]

@@ -25,7 +25,8 @@ from perilune.fmus_src.kernel.enumerations import Enumeration, member
 from perilune.fmus_src.kernel.matrices import zeros
 from perilune.fmus_src.kernel.records import Field, Record
 from perilune.fmus_src.kernel.vector_types import Vector3
-from tests.support.native.building import NATIVE
+from tests.support.lengths import either
+from tests.support.native.building import COMPILED, NATIVE
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema" / "fmi3"
 
@@ -48,7 +49,7 @@ def describe(block: type[Block], folder: Path) -> tuple[ModelDescription, ModelD
     return fmpy.read_model_description(old), fmpy.read_model_description(str(path))
 
 
-@pytest.mark.parametrize("name", NATIVE)
+@pytest.mark.parametrize("name", either(NATIVE, COMPILED))
 def test_a_block_is_described_as_in_fmi_2(name: str, tmp_path: Path) -> None:
     old, new = describe(catalogue()[name], tmp_path)
     groups: dict[str, list] = {}

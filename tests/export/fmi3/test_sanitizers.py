@@ -14,8 +14,8 @@ from tests.support.kernels.native_instance import GUID
 from tests.support.native.driver import drive, link
 from tests.support.native.sanitizers import find_compiler
 
-# Vectors, matrices and enumerations; a record; Booleans and Integers in several bundles.
-DENSE = ("output_feedback", "command_switch", "slew_quintic")
+# Vectors, matrices and enumerations; Booleans and Integers in several bundles.
+DENSE = ("output_feedback", "command_switch")
 BLOCKS = [
     block for block in catalogue().values() if not block.python_only and (lengths.LONG or block.fmu_name in DENSE)
 ]

@@ -118,8 +118,8 @@ def test_a_date_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Monk
 
 @pytest.mark.usefixtures("fmus")
 def test_a_shipped_system_says_where_it_is_from_and_a_users_does_not(tmp_path: Path) -> None:
-    shutil.copytree(SYSTEMS / "lunar_terminal_guidance", tmp_path / "mine")
-    ours, files = read(build_one(tmp_path / "ours.fmu", "lunar_terminal_guidance"))
+    shutil.copytree(SYSTEMS / "lunar_descent_2d", tmp_path / "mine")
+    ours, files = read(build_one(tmp_path / "ours.fmu", "lunar_descent_2d"))
     users, _ = read(build_one(tmp_path / "users.fmu", tmp_path / "mine"))
     assert ours["author"] == "The Perilune authors"
     assert "author" not in users

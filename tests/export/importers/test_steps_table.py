@@ -12,7 +12,7 @@ from perilune.fmus_src.export.compilers import local_platform
 from tests.support.lengths import either
 from tests.support.native.building import COMPILED
 
-EVERY = {"native": either(1, 12), "python": either(1, 40), "fmi3": either(1, 4)}
+EVERY = {"native": either(1, 20), "python": either(1, 60), "fmi3": either(1, 8)}
 
 
 @pytest.mark.parametrize("form", FORMS)

@@ -233,7 +233,7 @@ def test_a_block_without_a_kernel_proves_nothing() -> None:
 KERNELS = [block for block in catalogue().values() if not block.python_only]
 
 
-@pytest.mark.parametrize("block", KERNELS[:: either(1, 4)], ids=lambda block: block.fmu_name)
+@pytest.mark.parametrize("block", KERNELS[:: either(1, 8)], ids=lambda block: block.fmu_name)
 def test_nothing_that_steps_leave_alone_follows_from_a_tunable_parameter(block: type[Block]) -> None:
     flown = BlockInstance(block)
     flown.start()

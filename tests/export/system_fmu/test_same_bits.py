@@ -29,7 +29,7 @@ from tests.support.native.toolbox import find_semantic_errors
 STEP = 0.25  # s, of the small systems
 
 
-@settings(max_examples=either(200, 12), deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=either(200, 4), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(graph=graphs())
 def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     """Faults are inputs: set before the step that ends in their window, they hold for what is exchanged at its end."""
@@ -74,7 +74,7 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("name", either(system_names(), ["entry_attitude", "lunar_landing"]))
+@pytest.mark.parametrize("name", either(system_names(), ["orbital_attitude"]))
 def test_whole_systems(tmp_path, name):
     """Every exchanged signal; behind the system's end all values stay."""
     native = perilune.simulate(name, flavour="native")
@@ -94,8 +94,8 @@ def test_whole_systems(tmp_path, name):
 @pytest.mark.usefixtures("fmus")
 def test_every_candidate_of_a_slot(tmp_path):
     """Candidates of different connectors and orders; the first is the system's own."""
-    guidances = ["analytic_guidance", "astar_guidance", "astar_robust_guidance"]
-    guidances += either(["analytic_exact_guidance", "astar_modified_guidance"], [])
+    guidances = ["analytic_guidance", "astar_guidance"]
+    guidances += either(["astar_robust_guidance", "analytic_exact_guidance", "astar_modified_guidance"], [])
     navigations = ["noisy_navigation", "kalman_navigation"]
     exposed = ["plant.position", "guidance.time_to_go"]
     slots = {"guidance": guidances, "navigation": navigations}
