@@ -33,7 +33,7 @@ def flown(path, flavour, values, faults=(), wanted=None, **options):
     return ends
 
 
-@settings(max_examples=either(10_000, 25), deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=either(10_000, 8), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(graph=graphs())
 def test_random_graphs(tiny_folder, tmp_path_factory, graph):
     ssd, values, faults, wanted, algorithm = graph
@@ -43,7 +43,7 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("name", either(system_names(), ["lunar_terminal_guidance", "robot_rendezvous"]))
+@pytest.mark.parametrize("name", either(system_names(), ["orbital_attitude"]))
 def test_whole_systems(name):
     native, fused = (perilune.simulate(name, flavour=flavour) for flavour in ("native", "fused"))
     assert {each: rows.tobytes() for each, rows in fused.signals.items()} == {
@@ -99,13 +99,13 @@ def test_foreign_fmus_are_called_beside(tiny_folder, tmp_path, monkeypatch):
 @pytest.mark.usefixtures("fmus")
 def test_a_campaign_begun_native_and_gone_on_fused(tmp_path):
     """The folder is that of a campaign simulated as a whole, file by file."""
-    options = {"configuration": "analytic_guidance", "stop_time": 20.0, "trials": 80}
+    options = {"configuration": "analytic_guidance", "stop_time": 5.0, "trials": either(80, 20)}
     campaign = ("lunar_terminal_guidance", "noisy")
     for flavour in ("native", "fused"):
         perilune.batch(
             *campaign, output=tmp_path / flavour, flavour=None if flavour == "native" else flavour, **options
         )
-    perilune.batch(*campaign, output=tmp_path / "both", **options | {"trials": 40})
+    perilune.batch(*campaign, output=tmp_path / "both", **options | {"trials": options["trials"] // 2})
     perilune.batch(*campaign, output=tmp_path / "both", flavour="fused", resume=True, **options)
     native, fused, both = (contents(tmp_path / name) for name in ("native", "fused", "both"))
     assert fused == native

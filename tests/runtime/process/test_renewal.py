@@ -17,9 +17,10 @@ from perilune.analysis.runtime.process.resets import find_verdict
 from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.foreign.coupled import CAMPAIGN, Trace, coupled_fmu, coupled_module, coupled_system
+from tests.support.lengths import either
 
 pytestmark = pytest.mark.flies
-TRIALS = 24
+TRIALS = either(24, 8)
 TIMES = {"stop_time": 0.5, "step": 0.25}
 
 

@@ -97,7 +97,7 @@ def waiting(tmp_path, words, **quirks):
     raise AssertionError(f"{line}: no child has loaded the FMU")
 
 
-@pytest.mark.parametrize("name", either(list(COMMANDS), ["batch with two workers", "rare"]))
+@pytest.mark.parametrize("name", either(list(COMMANDS), ["batch with two workers"]))
 def test_no_other_process_has_them(tmp_path, name):
     """And Ctrl-C ends the command at once, although a call does not return, whichever child it is in."""
     command, servers, children = waiting(tmp_path, COMMANDS[name], DEED=Deed.HANG, IN=Call.INITIALISATION)

@@ -17,13 +17,13 @@ from perilune.analysis.runtime.system.feedthrough import Origin
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
+from perilune.common.paths import FLAVOURS
 from tests.support.builders import component, connection, document, fly, pack, retouched, system
 from tests.support.lengths import either
 
 RAMP = component("ramp", "ramp", "output y Real m")
 GAIN_ENDS = "input u Real m; output y Real m"
 DELAY = component("delay", "delay", GAIN_ENDS)
-FEWER_FLAVOURS = pytest.mark.parametrize("tiny", either(["python", "native"], ["native"]), indirect=True)
 WIRES = connection("ramp.y", "gain.u") + connection("gain.y", "delay.u")
 
 
@@ -37,13 +37,20 @@ def without_outputs(text):
     return re.sub(r"<Outputs>.*?</Outputs>", "", text, flags=re.DOTALL)
 
 
-@pytest.fixture(params=[without_dependencies, without_outputs])
-def undeclared(tiny, tmp_path, request):
-    """Write a folder of tiny FMUs, gain and cross of which declare no dependencies of their outputs."""
+LONG_FORMS = [(flavour, way) for way in (without_dependencies, without_outputs) for flavour in FLAVOURS]
+FORMS = either(LONG_FORMS, [("native", without_dependencies), ("python", without_outputs)])
+FEWER_FORMS = pytest.mark.parametrize("undeclared", either(FORMS, FORMS[:1]), indirect=True)
+
+
+@pytest.fixture(params=FORMS, ids=lambda form: f"{form[1].__name__}-{form[0]}")
+def undeclared(tiny_folder, tmp_path, request):
+    """Write a folder of tiny FMUs of a flavour, gain and cross of which declare no dependencies of their outputs."""
+    flavour, change = request.param
+    tiny = tiny_folder / flavour
     for name in ("ramp", "delay", "gain"):
         (tmp_path / f"{name}.fmu").write_bytes((tiny / f"{name}.fmu").read_bytes())
     for name in ("gain", "cross"):
-        retouched(tiny / f"{name}.fmu", tmp_path / f"open_{name}.fmu", request.param)
+        retouched(tiny / f"{name}.fmu", tmp_path / f"open_{name}.fmu", change)
     return tmp_path
 
 
@@ -181,7 +188,7 @@ expression = "end > 0"
 """
 
 
-@FEWER_FLAVOURS
+@FEWER_FORMS
 def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclared, tmp_path):
     path, campaign = chain(undeclared), tmp_path / "ends.toml"
     campaign.write_text(CAMPAIGN)
@@ -205,10 +212,7 @@ def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclare
     assert line.startswith("late: assumed: gain: FMU gain")
 
 
-@FEWER_FLAVOURS
-@pytest.mark.parametrize(
-    "undeclared", either([without_dependencies, without_outputs], [without_dependencies]), indirect=True
-)
+@FEWER_FORMS
 @pytest.mark.parametrize(
     ("study", "options"),
     [

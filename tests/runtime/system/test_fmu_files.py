@@ -15,6 +15,7 @@ from perilune.common.errors import InputError
 from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.own_digests import SUMS, note_own
 from tests.support.builders import retouched, write_zip
+from tests.support.lengths import either
 
 
 def contents(path):
@@ -65,6 +66,7 @@ def test_what_was_built_is_our_own(flavour):
     listed = dict(reversed(line.split("  ")) for line in (folder / SUMS).read_text().splitlines())
     for path in sorted(folder.glob("*.fmu")):
         assert listed[path.name] == hashlib.sha256(path.read_bytes()).hexdigest()
+    for path in sorted(folder.glob("*.fmu"))[:: either(1, 10)]:
         assert load(path).is_own
 
 

@@ -11,12 +11,18 @@ import pytest
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
+from perilune.common.paths import FLAVOURS
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m")
 GAIN = component("gain", "gain", "input u Real m; output y Real m")
 DELAY = component("delay", "delay", "input u Real m; output y Real m")
 RAMP_GAIN_DELAY = connection("ramp.y", "gain.u") + connection("gain.y", "delay.u")
+
+
+@pytest.fixture(params=FLAVOURS)
+def tiny(request, tiny_folder):
+    return tiny_folder / request.param
 
 
 @pytest.mark.parametrize("order", [(RAMP, GAIN, DELAY), (DELAY, GAIN, RAMP), (GAIN, DELAY, RAMP)])
