@@ -84,7 +84,7 @@ def test_a_block_of_a_slot(slot, tmp_path, monkeypatch, capsys):
     system, component = find_smallest_system(slot)
     native = perilune.simulate(system, use={component: name}, flavour="native")
     TASKS[slot](native)
-    python = perilune.simulate(system, use={component: name}, flavour="python", stop_time=either(None, 10.0))
+    python = perilune.simulate(system, use={component: name}, flavour="python", stop_time=either(None, 2.0))
     for signal, values in python.signals.items():
         assert (values == native[signal][: len(values)]).all(), signal
 

@@ -16,6 +16,7 @@ from perilune.analysis.evidence.trajectory import read_trajectory
 from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.evidence.manifest import FOLDER, SUMS
 from tests.support.builders import component, connection, document, system, write_zip
+from tests.support.lengths import either
 
 FEW = """
 extends = "paper.toml"
@@ -100,17 +101,22 @@ def test_what_is_changed_is_named(exported, tmp_path, capsys):
     assert f"{name}: missing, though the manifest lists it" in lines
 
 
-def test_margins(fmus, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("name", either(["mine", "satellite_pointing"], ["mine"]))
+def test_margins(fmus, name, tmp_path, monkeypatch, capsys):
+    """Stored, and compared with those of a study: of a new system's loop, or of a shipped system's six."""
     monkeypatch.chdir(tmp_path)
-    assert main(["export", "satellite_pointing", "--study", "stability"]) == 0
-    with zipfile.ZipFile("satellite_pointing.ssp") as archive:
+    if name == "mine":
+        assert main(["new", "system", name]) == 0
+        assert main(["export", f"{name}/blocks.py"]) == 0
+    assert main(["export", name, "--study", "stability"]) == 0
+    with zipfile.ZipFile(f"{name}.ssp") as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
-    name = f"{FOLDER}/reports/stability.json"
-    (loop, *_) = json.loads(files[name])["loops"]
-    (expected, *_) = perilune.stability("satellite_pointing").to_json()["loops"]
+    report = f"{FOLDER}/reports/stability.json"
+    (loop, *_) = json.loads(files[report])["loops"]
+    (expected, *_) = perilune.stability(name).to_json()["loops"]
     assert loop.items() <= expected.items()
-    changed = files[name].replace(str(loop["modulus_margin"]).encode(), b"0.75", 1)
-    lines = refused(tmp_path, files | {name: changed}, capsys)
+    changed = files[report].replace(str(loop["modulus_margin"]).encode(), b"0.75", 1)
+    lines = refused(tmp_path, files | {report: changed}, capsys)
     assert any(line.startswith("stability: .loops[1].modulus_margin: 0.75 in the report") for line in lines)
 
 

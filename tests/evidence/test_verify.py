@@ -64,17 +64,17 @@ def test_ours_are_verified(capsys):
 
 
 def test_every_fmu_of_ours(capsys):
-    """All native ones, and some of the Python ones."""
+    """Verify FMUs of either flavour, in `make long` all of them."""
     paths = [
         shipped_fmu(name, flavour)
-        for flavour, step in (("native", 1), ("python", either(1, 8)))
+        for flavour, step in (("native", either(1, 8)), ("python", either(1, 24)))
         for name in sorted(catalogue())[::step]
         if shipped_fmu(name, flavour).exists()
     ]
     assert main(["verify", *map(str, paths)]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    assert captured.out.count(": verified\n") == len(paths) > len(catalogue())
+    assert captured.out.count(": verified\n") == len(paths) > either(len(catalogue()), 12)
 
 
 def test_as_json(capsys):

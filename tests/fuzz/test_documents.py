@@ -42,4 +42,4 @@ TABLES = [any_mapping, any_series, any_draws, any_expression, any_archive]
 
 @pytest.mark.parametrize("target", [*DOCUMENTS, *OTHERS, *TABLES])
 def test_any_change(tiny_folder, tmp_path, target):
-    settings(max_examples=either(4000, 1000))(target(tiny_folder, tmp_path))()
+    settings(max_examples=either(4000, 250))(target(tiny_folder, tmp_path))()

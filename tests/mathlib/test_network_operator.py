@@ -58,7 +58,7 @@ def test_the_table_is_complete():
 
 @pytest.mark.parametrize("operation", FORMULAS)
 @given(z=st.floats(-18.0, 18.0).filter(lambda z: abs(z) > 1e-6))
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_unary_operations_are_their_formulas(operation, z):
     # 1 - exp(-z) and exp|z| - 1 lose what is below one rounding error of 1; so does the log of nearly 1
     assert no.unary(operation, z, LARGE) == pytest.approx(float(FORMULAS[operation](z)), rel=ROUNDING, abs=ROUNDING)
@@ -78,7 +78,7 @@ def test_exp_saturates_at_either_value(saturation):
 
 @pytest.mark.parametrize(("operation", "truth"), [(0, lambda a, b: a + b), (1, lambda a, b: a * b), (2, max), (3, min)])
 @given(a=st.floats(-1e4, 1e4), b=st.floats(-1e4, 1e4))
-@settings(max_examples=either(60, 20), deadline=None)
+@settings(max_examples=either(60, 8), deadline=None)
 def test_binary_operations(operation, truth, a, b):
     assert no.binary(operation, a, b) == truth(a, b)
     assert no.binary(operation, no.neutral(operation), a) == a
@@ -125,7 +125,7 @@ def test_random_networks_are_evaluated_in_order():
     seed=st.integers(0, 2**32 - 1),
     sources=st.lists(st.sampled_from([0.0, -0.0, 1e-12, 1.0, -1.0, math.pi, 1e8, -1e8]), min_size=6, max_size=6),
 )
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_no_network_faults(seed, sources):
     nodes = evaluated(a_network(np.random.default_rng(seed), 0.8), sources)
     assert all(math.isfinite(value) for value in nodes)

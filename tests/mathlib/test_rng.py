@@ -89,7 +89,7 @@ def test_first_states_of_streams_are_the_published_ones(seed, stream, published)
 
 @given(st.integers(0, 2**63 - 1), st.integers(0, 2**63 - 1))
 @example(2**63 - 1, 2**63 - 1)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 10), deadline=None)
 def test_streams_are_jumps_of_the_recurrences(seed, stream):
     assert seeded(seed, stream) == advanced([12345] * 6, seed * 2**127 + stream * 2**76)
 
@@ -100,7 +100,7 @@ WORDS = st.lists(st.integers(-(2**31), 2**32), min_size=3, max_size=3)
 @given(WORDS, WORDS, WORDS, WORDS, st.sampled_from([P1, P2]))
 @example([2**32] * 3, [2**32] * 3, [2**32] * 3, [2**32] * 3, P1)
 @example([-(2**31)] * 3, [2**32] * 3, [2**32] * 3, [2**32] * 3, P2)
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_sums_of_products_are_exact(s, a, b, c, modulus):
     actual = combine(*(vector(*map(float, words)) for words in (s, a, b, c)), float(modulus))
     exact = [s[0] * a[i] + s[1] * b[i] + s[2] * c[i] for i in range(3)]
@@ -109,7 +109,7 @@ def test_sums_of_products_are_exact(s, a, b, c, modulus):
 
 
 @given(st.integers(-(2**20), 2**20), st.sampled_from([P1, P2]), st.integers(-2, 2))
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_residues_are_exact_beside_multiples_of_the_modulus(multiple, modulus, offset):
     high, low = divmod(multiple * modulus + offset, 2**16)
     assert reduce_modulo(float(high), float(low), float(modulus)) == offset

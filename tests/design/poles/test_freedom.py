@@ -38,7 +38,7 @@ def yang_and_tits(a: np.ndarray, b: np.ndarray, poles: np.ndarray) -> np.ndarray
 
 
 @given(st.sampled_from([(4, 2, 1), (6, 3, 3), (5, 2, 0), (3, 3, 1)]), st.integers(0, 2**32 - 1))
-@settings(max_examples=either(100, 15))
+@settings(max_examples=either(100, 8))
 def test_every_member_of_the_family_is_a_closed_loop(case: tuple[int, int, int], seed: int) -> None:
     states, inputs, pairs = case
     random = np.random.default_rng(seed)

@@ -43,7 +43,7 @@ def brunovsky(lengths: list[int], random: np.random.Generator) -> tuple[np.ndarr
 
 
 @given(st.lists(st.integers(0, 4), min_size=1, max_size=4).filter(any), st.integers(0, 2**32 - 1))
-@settings(max_examples=either(300, 40))
+@settings(max_examples=either(300, 13))
 def test_indices_and_poles_of_pairs_with_known_indices(lengths: list[int], seed: int) -> None:
     random = np.random.default_rng(seed)
     a, b = brunovsky(lengths, random)
@@ -75,7 +75,7 @@ def test_one_input_agrees_with_python_control() -> None:
 
 
 @given(st.integers(1, 3), st.integers(0, 2**32 - 1))
-@settings(max_examples=either(100, 20))
+@settings(max_examples=either(100, 8))
 def test_refuses_what_is_not_reached(unreached: int, seed: int) -> None:
     random = np.random.default_rng(seed)
     a, b = random.normal(size=(5, 5)), random.normal(size=(5, 2))

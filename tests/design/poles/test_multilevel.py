@@ -80,7 +80,7 @@ def test_levels_drive_each_other_one_way() -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-6, 6))
-@settings(max_examples=either(200, 25))
+@settings(max_examples=either(200, 8))
 def test_units_of_inputs_and_coordinates_do_not_matter(seed: int, decade: int) -> None:
     """Rotated states, and inputs in other units: the same closed loop in the other coordinates."""
     random = np.random.default_rng(seed)

@@ -76,7 +76,7 @@ def test_measuring_every_state_is_state_feedback() -> None:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=either(100, 6))
+@settings(max_examples=either(100, 8))
 def test_the_dual_of_the_transposed_plant_is_the_direct_route(seed: int) -> None:
     random = np.random.default_rng(seed)
     a, b, c, poles = next(random_systems(1, 5, 3, 3, most_pairs=1, seed=seed))

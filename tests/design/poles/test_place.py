@@ -40,7 +40,7 @@ def test_the_method_that_applies() -> None:
 
 
 @given(st.integers(2, 6), st.integers(1, 4), st.integers(0, 2**32 - 1))
-@settings(max_examples=either(300, 40))
+@settings(max_examples=either(300, 13))
 def test_any_sizes(states: int, inputs: int, seed: int) -> None:
     a, b, _, poles = next(random_systems(1, states, inputs, seed=seed))
     actual = modal.place(a, b, poles)

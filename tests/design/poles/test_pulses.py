@@ -30,7 +30,7 @@ def integrated(rate, state: np.ndarray, lengths: np.ndarray, values: np.ndarray)
 
 
 @given(st.lists(st.sampled_from([0.0, 0.2, 0.5, PERIOD]), min_size=3, max_size=3), st.integers(0, 2**32 - 1))
-@settings(max_examples=either(60, 10))
+@settings(max_examples=either(60, 8))
 def test_linear_plants_are_exact(lengths: list[float], seed: int) -> None:
     a, b, _, _ = next(random_systems(1, 4, 3, seed=seed))
     random = np.random.default_rng(seed)

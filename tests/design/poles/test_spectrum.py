@@ -22,7 +22,7 @@ def spectra(draw: st.DrawFn) -> Spectrum:
 
 
 @given(spectra())
-@settings(max_examples=50)
+@settings(max_examples=either(50, 12))
 def test_matrix_and_polynomial_have_the_poles(spectrum: Spectrum) -> None:
     assert pole_error(spectrum.matrix, spectrum.poles) < 1e-12
     assert spectrum.polynomial[-1] == 1.0
@@ -33,7 +33,7 @@ def test_matrix_and_polynomial_have_the_poles(spectrum: Spectrum) -> None:
 
 
 @given(spectra(), st.lists(st.integers(1, 4), min_size=1, max_size=4))
-@settings(max_examples=either(200, 50))
+@settings(max_examples=either(200, 16))
 def test_spreads_use_every_pole_once_and_fail_only_where_pairs_cannot_fit(spectrum: Spectrum, sizes: list[int]) -> None:
     sizes = [*sizes, spectrum.size - sum(sizes)]
     if sizes[-1] < 0:

@@ -82,12 +82,12 @@ def test_means_are_those_of_the_prototype(campaign):
 def mine(tmp_path):
     """Write a short campaign whose table is missing."""
     path = tmp_path / "mine.toml"
-    path.write_text('extends = "laws_approach"\ntrials = 3\nseed = 5\n[lookup.bound]\nfile = "tables/mine.csv"\n')
+    path.write_text('extends = "laws_approach"\ntrials = 2\nseed = 5\n[lookup.bound]\nfile = "tables/mine.csv"\n')
     return path
 
 
 def test_stored_and_looked_up(mine, capsys):
-    call = ["design", "bounds", "lunar_landing", "--campaign", str(mine), "--intervals", "20", "--workers", "1"]
+    call = ["design", "bounds", "lunar_landing", "--campaign", str(mine), "--intervals", "12", "--workers", "1"]
     with pytest.raises(InputError, match=r"no file tables/mine.csv; write it again; perilune design bounds writes"):
         perilune.batch("lunar_landing", mine, workers=1)
     assert main([*call, "--json", "-"]) == 0
@@ -96,11 +96,11 @@ def test_stored_and_looked_up(mine, capsys):
     assert main([*call, "--store"]) == 0
     out = capsys.readouterr().out
     path = mine.parent / "tables" / "mine.csv"
-    assert re.search(r"3 trials \(20 intervals\)\n  bound [\d.]+ kg on average, [\d.]+ to [\d.]+ kg\nstored: ", out)
+    assert re.search(r"2 trials \(12 intervals\)\n  bound [\d.]+ kg on average, [\d.]+ to [\d.]+ kg\nstored: ", out)
     stored = [float(row["propellant"]) for row in rows_of(path)]
     assert stored == pytest.approx(document["propellant_kg"], abs=1e-6)
     assert (
-        perilune.bound_trials("lunar_landing", mine, intervals=20, workers=2).propellant.tolist()
+        perilune.bound_trials("lunar_landing", mine, intervals=12, workers=2).propellant.tolist()
         == (document["propellant_kg"])
     )
     flown = perilune.batch("lunar_landing", mine, configuration="convex_guidance", workers=1).trials["convex_guidance"]
@@ -109,7 +109,7 @@ def test_stored_and_looked_up(mine, capsys):
     mine.write_text(mine.read_text() + '[set]\n"plant.initial_mass" = 570\n')
     with pytest.raises(InputError, match="trial 0: computed for other inputs") as error:
         perilune.batch("lunar_landing", mine, workers=1)
-    remedy = f"write it again: perilune design bounds lunar_landing --campaign {mine} --intervals 20 --store"
+    remedy = f"write it again: perilune design bounds lunar_landing --campaign {mine} --intervals 12 --store"
     assert str(error.value).endswith(remedy)
 
 

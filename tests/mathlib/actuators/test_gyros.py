@@ -72,7 +72,7 @@ def test_isotropic_angles_are_the_published_ones():
 
 
 @given(seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_momentum_jacobian_and_singularity(seed):
     angles = np.random.default_rng(seed).uniform(-7.0, 7.0, 4).tolist()
     angles = vector(*angles)
@@ -85,7 +85,7 @@ def test_momentum_jacobian_and_singularity(seed):
 
 
 @given(seeds, st.floats(0.0, 1.9))
-@settings(max_examples=either(500, 125), deadline=None)
+@settings(max_examples=either(500, 41), deadline=None)
 def test_momentum_to_angles_and_back(seed, size):
     momentum = size * direction(seed)
     angles = lawful_angles(momentum)
@@ -94,7 +94,7 @@ def test_momentum_to_angles_and_back(seed, size):
 
 
 @given(seeds, st.floats(0.0, 1.9), st.floats(0.0, 0.97))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_explicit_solution_is_the_root_of_the_implicit_law(seed, size, rho):
     """x - u a = v b with v of the law: one root for u within -1 to 1, found by bisection."""
     x, y, z = size * direction(seed)
@@ -112,7 +112,7 @@ def test_explicit_solution_is_the_root_of_the_implicit_law(seed, size, rho):
 
 
 @given(seeds)
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_angles_come_by_whole_turns_nearest_to_those_before(seed):
     random = np.random.default_rng(seed)
     momentum = 1.5 * direction(seed)
@@ -151,7 +151,7 @@ def test_law_stays_away_from_singular_states_below_its_bound():
 
 
 @given(seeds, st.floats(0.0, 1.9), st.floats(0.0, 0.3))
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
     """Off the law as well: the residual's derivative along the rates is -gain times it, the momentum's is exact."""
     random = np.random.default_rng([seed, 7])
@@ -186,7 +186,7 @@ def test_law_is_refused_in_singular_states(angles):
 
 
 @given(seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_robust_rates_are_the_pseudo_inverse_away_from_singular_states(seed):
     random = np.random.default_rng(seed)
     angles, wanted = random.uniform(-4.0, 4.0, 4), random.normal(size=3)
@@ -197,7 +197,7 @@ def test_robust_rates_are_the_pseudo_inverse_away_from_singular_states(seed):
 
 
 @given(seeds, st.sampled_from([0.0, 0.2, 0.45]), st.floats(0.0, 10.0))
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_robust_rates_near_singular_states_solve_the_damped_problem(seed, swing, time):
     """Against numpy's solution of A W A' + k E; bounded by |A|/k times the demanded rate."""
     random = np.random.default_rng(seed)

@@ -146,7 +146,7 @@ def test_largest_forces_and_torques():
 
 
 @given(seeds)
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_pseudo_inverse_is_that_of_numpy(seed):
     wrench = np.random.default_rng(seed).normal(size=6)
     thrust = [0.0] * 8
@@ -192,7 +192,7 @@ def test_least_propellant_is_the_least_maximum_too():
 
 
 @given(seeds, st.floats(0.05, 30.0))
-@settings(max_examples=either(150, 37), deadline=None)
+@settings(max_examples=either(150, 12), deadline=None)
 def test_beyond_the_attainable_set_the_wrench_is_scaled_to_its_surface(seed, size):
     wrench = size * np.random.default_rng(seed).normal(size=6) * [1.0, 1.0, 1.0, 0.1, 0.4, 0.3]
     thrust, scale = shared(wrench, least_propellant)
@@ -203,7 +203,7 @@ def test_beyond_the_attainable_set_the_wrench_is_scaled_to_its_surface(seed, siz
 
 
 @given(seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_a_force_alone_is_attainable_where_two_axes_say_so(seed):
     """|Fi| + |Fj| <= 2 maximum |strength| for each two axes, in units of the strengths: 1.155 N."""
     force = np.random.default_rng(seed).normal(size=3)
@@ -234,7 +234,7 @@ def test_rule_of_the_paper_is_exact_exactly_where_its_condition_says():
 
 
 @given(seeds)
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_rule_of_the_paper_for_a_force_alone(seed):
     """Exact while the sum over the axes, in units of the strengths, is 4 jets' worth of maximum: 1.154 N."""
     force = np.random.default_rng(seed).normal(size=3)
@@ -296,7 +296,7 @@ def lattice(highest):
 
 
 @given(seeds, st.floats(0.001, 1.5))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_nearest_levels_are_the_nearest_of_all_attainable_ones(seed, size):
     """Against a search over the whole lattice; at the surface neighbours only are looked at, which may be farther."""
     highest = 4

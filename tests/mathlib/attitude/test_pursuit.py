@@ -56,7 +56,7 @@ def integrated(base, rate, end, response, limit, start=START):
 
 
 @given(st.floats(0.05, 3.1), st.sampled_from([0.2, 0.5, 2.0]), st.sampled_from([0.02, 0.1]))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 10), deadline=None)
 def test_response_to_a_goal_at_rest_is_exponential(apart, response, step):
     goal = Rotation.from_rotvec([0.0, apart, 0.0]).apply(START)
     rows = followed(goal, np.zeros(3), 1.0, step, response, 0.0)
@@ -145,7 +145,7 @@ def test_goal_faster_than_the_limit_runs_away():
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.3, 1.0]), st.floats(0.01, 1.0))
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_limit_is_never_exceeded(seed, response, limit):
     generator = np.random.default_rng(seed)
     start, base = unit(generator.normal(size=3)), unit(generator.normal(size=3))

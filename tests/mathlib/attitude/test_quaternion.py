@@ -47,7 +47,7 @@ def drawn(seed):
 
 
 @given(seeds, seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_product_turns_by_the_second_factor_first(a_seed, b_seed):
     a, b = attitude(a_seed), attitude(b_seed)
     product = multiply(a, b)
@@ -57,7 +57,7 @@ def test_product_turns_by_the_second_factor_first(a_seed, b_seed):
 
 
 @given(seeds, seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_vectors_turn_as_matrices_turn_them(q_seed, v_seed):
     q, v = attitude(q_seed), drawn(v_seed)
     matrix = rotation(q).as_matrix()
@@ -82,7 +82,7 @@ def test_conjugate_turns_back():
 
 
 @given(seeds, st.floats(-300.0, 300.0))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_normalised_quaternions_keep_their_direction_at_any_size(seed, exponent):
     q = attitude(seed)
     assert normalise(10.0**exponent * q) == pytest.approx(q, abs=1e-15)
@@ -94,7 +94,7 @@ def test_what_has_no_direction_becomes_no_rotation(bad):
 
 
 @given(seeds, st.floats(0.0, 3.14))
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_rotation_vectors_there_and_back(seed, angle):
     phi = drawn(seed)
     phi = vector(*(angle * np.array(phi) / np.linalg.norm(phi)).tolist())
@@ -113,7 +113,7 @@ def test_small_rotations_keep_their_relative_accuracy(size):
 
 
 @given(seeds, st.floats(0.0, math.pi))
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_more_than_half_a_turn_comes_back_the_shorter_way(seed, angle):
     axis = np.array(drawn(seed))
     axis /= np.linalg.norm(axis)
@@ -124,7 +124,7 @@ def test_more_than_half_a_turn_comes_back_the_shorter_way(seed, angle):
 
 
 @given(seeds, seeds)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_difference_leads_from_the_one_to_the_other(reference_seed, q_seed):
     reference, q = attitude(reference_seed), attitude(q_seed)
     error = difference(reference, q)
@@ -134,7 +134,7 @@ def test_difference_leads_from_the_one_to_the_other(reference_seed, q_seed):
 
 
 @given(seeds, seeds, st.floats(0.0, 3.1))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_angle_error_is_the_axis_times_the_sine(reference_seed, axis_seed, angle):
     reference, axis = attitude(reference_seed), np.array(drawn(axis_seed))
     axis /= np.linalg.norm(axis)
@@ -145,7 +145,7 @@ def test_angle_error_is_the_axis_times_the_sine(reference_seed, axis_seed, angle
 
 
 @given(seeds, st.floats(0.0, 3.1415))  # at half a turn either way is the shorter one
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_rodrigues_parameters_are_the_axis_times_the_tangent_of_a_quarter(seed, angle):
     axis = np.array(drawn(seed))
     axis /= np.linalg.norm(axis)

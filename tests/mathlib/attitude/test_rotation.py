@@ -33,7 +33,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 @given(seeds, seeds, st.floats(0.0, 3.2))
-@settings(max_examples=either(300, 75), deadline=None)
+@settings(max_examples=either(300, 25), deadline=None)
 def test_turn_is_the_rotation_about_the_common_normal(start_seed, goal_seed, largest):
     start, goal = unit(start_seed), unit(goal_seed)
     apart = angle_between(start, goal)
@@ -46,7 +46,7 @@ def test_turn_is_the_rotation_about_the_common_normal(start_seed, goal_seed, lar
 
 
 @given(seeds, seeds, st.floats(1e-6, 3.0))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_result_is_a_unit_vector_turned_by_no_more_than_allowed(start_seed, goal_seed, largest):
     start, goal = unit(start_seed), unit(goal_seed)
     turned, left = turn_towards(vector(*start), vector(*goal), largest)
@@ -66,7 +66,7 @@ def test_opposite_vectors_turn_by_the_angle_allowed(k, largest):
 
 
 @given(seeds, st.floats(1e-16, 1e-6), st.floats(0.01, 3.0))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_nearly_opposite_vectors_turn_by_the_angle_allowed(seed, offset, largest):
     start = unit(seed)
     goal = -start + offset * np.cross(start, unit(seed + 1))
@@ -78,7 +78,7 @@ def test_nearly_opposite_vectors_turn_by_the_angle_allowed(seed, offset, largest
 
 
 @given(seeds, seeds, st.floats(1e-9, 1e-6), st.floats(0.01, 0.9))
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_tiny_turns_go_towards_the_goal(start_seed, side_seed, apart, part):
     start = unit(start_seed)
     side = np.cross(start, unit(side_seed))

@@ -73,7 +73,7 @@ def roots_of(coefficients):
 
 
 @given(box, st.floats(1.0, 300.0))
-@settings(max_examples=either(25, 10), deadline=None)
+@settings(max_examples=either(25, 8), deadline=None)
 def test_impulse_and_miss_are_those_of_coasting(state, time):
     position, velocity = state
     coast = solve_ivp(
@@ -85,7 +85,7 @@ def test_impulse_and_miss_are_those_of_coasting(state, time):
 
 
 @given(box, st.floats(20.0, 400.0), arrivals)
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_linear_acceleration_meets_all_six_boundary_conditions(state, time, arrival):
     position, velocity = state
     arrival_velocity = np.array(arrival)
@@ -107,7 +107,7 @@ def test_linear_acceleration_meets_all_six_boundary_conditions(state, time, arri
 
 
 @given(box)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_quadratic_time_is_the_positive_root_without_the_cubic_term(state):
     position, velocity = state
     dr = TARGET - position
@@ -126,7 +126,7 @@ def falling_roots(dr, v, dv, g=GRAVITY):
 
 
 @given(box, arrivals)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_cubic_time_is_a_root_of_the_full_condition(state, arrival):
     position, velocity = state
     dr, dv = TARGET - position, np.array(arrival) - velocity
@@ -139,7 +139,7 @@ def test_cubic_time_is_a_root_of_the_full_condition(state, arrival):
 
 
 @given(places, speeds, st.sampled_from([GRAVITY, 0.0, 25.0]))
-@settings(max_examples=either(500, 125), deadline=None)
+@settings(max_examples=either(500, 41), deadline=None)
 def test_cubic_time_of_any_start_is_the_root_where_the_condition_falls(place, speed, g):
     dr, v = np.array(place), np.array(speed)
     assume(dr.any())
@@ -185,7 +185,7 @@ def test_no_cubic_time_for_starts_that_do_not_approach(dr, v):
 
 
 @given(box, st.floats(0.01, 100.0), st.floats(0.1, 10.0))
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_times_scale_with_length_and_time(state, length, duration):
     """Units of length and time stretched: times-to-go stretch with the unit of time."""
     position, velocity = state
@@ -239,7 +239,7 @@ def effort(dr, v, dv, time, g=GRAVITY):
 
 
 @given(places, speeds, arrivals)
-@settings(max_examples=either(200, 50), deadline=None)
+@settings(max_examples=either(200, 16), deadline=None)
 def test_least_effort_time_is_the_first_minimum_of_the_effort(place, speed, arrival):
     dr, v = np.array(place), np.array(speed)
     assume(np.linalg.norm(dr) > 1.0)
@@ -267,7 +267,7 @@ def test_least_effort_without_gravity_has_no_time_at_rest():
 
 
 @given(box, st.floats(0.0, 1.0))
-@settings(max_examples=either(100, 25), deadline=None)
+@settings(max_examples=either(100, 8), deadline=None)
 def test_linear_thrust_is_the_mean_and_the_turn_of_the_linear_acceleration(state, share):
     position, velocity = state
     arguments = (TARGET - position, velocity, -velocity)
