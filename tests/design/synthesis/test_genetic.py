@@ -20,7 +20,7 @@ from tests.support.laws.regression import POINTS, TOLERANCE, FormulaEvaluator, n
 from tests.support.lengths import either
 
 BASIC = read_law(find_law("diveev_2013_basic"))
-SMALL = SearchSettings(population=32, generations=either(12, 7), crossovers=20, elites=4, renewal=5, stop=False)
+SMALL = SearchSettings(population=32, generations=either(12, 11), crossovers=20, elites=4, renewal=5, stop=False)
 
 
 def search(seed, settings=SMALL, evaluator=None):
