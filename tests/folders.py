@@ -28,10 +28,24 @@ def module_of(file: Path) -> str:
     return ".".join(file.relative_to(ROOT).with_suffix("").parts)
 
 
-def imports(file: Path) -> Iterator[str]:
-    """Yield the modules of ours that a file imports, below perilune; within functions, too."""
+@cache
+def imports(file: Path) -> tuple[str, ...]:
+    """Return the modules of ours that a file imports, below perilune; within functions, too."""
+    return tuple(_iterate_imports(file))
+
+
+def _iterate_statements(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements below a node; no expressions, which are most of a syntax tree and hold no import."""
+    for field in ("body", "orelse", "handlers", "finalbody", "cases"):
+        below = getattr(node, field, ())
+        for each in below if isinstance(below, list) else ():
+            yield each
+            yield from _iterate_statements(each)
+
+
+def _iterate_imports(file: Path) -> Iterator[str]:
     package = list(file.relative_to(ROOT).parts[:-1])
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in _iterate_statements(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             assert not any(alias.name.split(".")[0] in OURS for alias in node.names), file
         if isinstance(node, ast.ImportFrom):

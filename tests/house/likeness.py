@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from collections import defaultdict
 from itertools import combinations
@@ -54,8 +53,7 @@ def like_lines(checkout: Checkout) -> Measure:
 
 def like(source: Source) -> list[tuple[int, str]]:
     """Return the compared lines, each with its number."""
-    imports = [node for node in source.nodes if isinstance(node, ast.Import | ast.ImportFrom)]
-    passed = {n for node in [*source.docstrings, *imports] for n in range(node.lineno, node.end_lineno + 1)}
+    passed = {n for node in [*source.docstrings, *source.imports] for n in range(node.lineno, node.end_lineno + 1)}
     normal = ((number, TOKEN.sub(_normal, line).strip()) for number, line in enumerate(source.text.splitlines(), 1))
     return [(number, text) for number, text in normal if text and number not in passed]
 

@@ -7,6 +7,7 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 from .sources import Source
@@ -20,13 +21,14 @@ def given_names(source: Source) -> Iterator[tuple[str, int]]:
     and the file itself (its folder for `__init__.py`). Attributes that are only read belong to their declarations."""
     yield (source.path.parent if source.path.name == "__init__.py" else source.path).stem, 1
     for node in source.nodes:
-        if isinstance(node, ast.Name):
+        kind = type(node)
+        if kind is ast.Name:
             yield node.id, node.lineno
-        elif isinstance(node, ast.arg):
+        elif kind is ast.arg:
             yield node.arg, node.lineno
-        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+        elif kind is ast.FunctionDef or kind is ast.ClassDef:
             yield node.name, node.lineno
-        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+        elif kind is ast.Attribute and type(node.ctx) is ast.Store:
             yield node.attr, node.lineno
 
 
@@ -34,9 +36,10 @@ def whole(name: str) -> str:
     return name.strip("_").lower()
 
 
-def words(name: str) -> set[str]:
+@cache
+def words(name: str) -> frozenset[str]:
     """Return the words of a name: `keptRows`, `KEPT_ROWS` and `_kept_rows` have the words kept and rows."""
-    return {token.lower() for token in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
+    return frozenset(token.lower() for token in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name))
 
 
 def count_words(sources: Iterable[Source], limits: dict[str, dict[str, int]]) -> Counter[str]:

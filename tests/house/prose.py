@@ -14,6 +14,7 @@ from .size import Measure
 from .sources import Checkout, Source
 
 LIMITS = Path(__file__).with_name("prose.toml")
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef)
 COMMENT = re.compile(r"(?:^\s*|\s\s)# (.*)$")
 Limits = dict[str, dict[str, int]]
 
@@ -44,7 +45,7 @@ def phrases(checkout: Checkout) -> Measure:
 
 def iterate_docstrings(source: Source) -> Iterator[tuple[int, str]]:
     for node in source.nodes:
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and (text := ast.get_docstring(node)):
+        if type(node) in DOCUMENTED and (text := ast.get_docstring(node)):
             yield node.body[0].lineno, text
 
 

@@ -31,6 +31,15 @@ class Source:
             gc.enable()
 
     @cached_property
+    def imports(self) -> list[ast.Import | ast.ImportFrom]:
+        """All imports, within functions too; they stay when the nodes are dropped."""
+        return [node for node in self.nodes if isinstance(node, (ast.Import, ast.ImportFrom))]
+
+    def drop_nodes(self) -> None:
+        """Free the syntax tree, which is a hundred times the text."""
+        self.__dict__.pop("nodes", None)
+
+    @cached_property
     def docstrings(self) -> list[ast.Expr]:
         """Strings that stand alone, as docstrings do."""
         alone = [n for n in self.nodes if isinstance(n, ast.Expr) and isinstance(n.value, ast.Constant)]

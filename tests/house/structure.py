@@ -101,7 +101,7 @@ def _module(path: PurePosixPath) -> tuple[str, ...]:
 
 def _imports(name: tuple[str, ...], source: Source, files: Iterable[tuple[str, ...]]) -> Iterable[tuple[str, ...]]:
     package = name if source.path.name == "__init__.py" else name[:-1]
-    for node in source.nodes:
+    for node in source.imports:
         if isinstance(node, ast.ImportFrom) and node.level:
             base = (*package[: len(package) - node.level + 1], *(node.module.split(".") if node.module else ()))
             for alias in node.names:
