@@ -11,7 +11,7 @@ import pytest
 
 import perilune
 from perilune.common.paths import ROOT
-from tests.support.lengths import LONG
+from tests.support.lengths import LONG, either
 
 PAGE = (ROOT / "docs" / "systems" / "descent_laws.md").read_text(encoding="utf-8")
 BENCH = re.compile(r"```sh\n(perilune batch lunar_landing .*)\n```\n\n(\|.*\n)\|[ -|]*\n((?:\|.*\n)+)")
@@ -70,7 +70,7 @@ def expected_cells(actual):
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize(("words", "row"), ROWS)
+@pytest.mark.parametrize(("words", "row"), either(ROWS, ROWS[:2]))
 def test_a_row_is_what_its_command_gives(words, row):
     expected = dict(expected_cells(fly(words, row["law"].strip("`"))))
     for column, text in row.items():

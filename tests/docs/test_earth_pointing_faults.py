@@ -81,6 +81,7 @@ def test_its_torque_is_all_that_the_momentum_gains():
     np.testing.assert_allclose(gained, integral, rtol=0.0, atol=0.01 * np.linalg.norm(gained))
 
 
+@pytest.mark.slow
 def test_without_stars_the_gyros_carry_on():
     flown = fly(6600.0, LOST)
     gap = (flown.time >= LOST_AT) & (flown.time < BACK)

@@ -119,6 +119,7 @@ def test_the_flight_and_the_gain(folder):
     assert f"takes {calm_time(slow):.0f} s to brake" in PAGE
 
 
+@pytest.mark.slow
 def test_the_worst_flight_is_off_by_its_torque(folder):
     flight = perilune.replay(folder, WORST, campaign="dispersed")
     assert f"perilune replay results {WORST} " in PAGE

@@ -17,6 +17,7 @@ from docs.figures.system_figures import PICTURES, POINTS, system_figure
 from perilune import simulate
 from perilune.analysis.documents.common.style import house_style
 from perilune.common.paths import ROOT
+from tests.support.lengths import either
 
 PAGES = {path: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]}
 
@@ -48,7 +49,7 @@ def test_a_picture_of_the_architecture_comes_from_its_source(name, figure, tmp_p
     assert (tmp_path / f"{name}.svg").read_bytes() == (IMAGES / "architecture" / f"{name}.svg").read_bytes()
 
 
-@pytest.mark.parametrize("system", ["lunar_landing", "orbital_attitude"])
+@pytest.mark.parametrize("system", either(["lunar_landing", "orbital_attitude"], ["orbital_attitude"]))
 def test_a_picture_of_a_system_comes_from_its_source(fmus, system, tmp_path):
     with house_style():
         figure = system_figure(PICTURES[system], simulate(system, **PICTURES[system].options))

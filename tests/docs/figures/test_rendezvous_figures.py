@@ -36,6 +36,7 @@ def test_bytes_repeat(flight, drawn_once, tmp_path):
         assert first.read_bytes() == second.read_bytes()
 
 
+@pytest.mark.slow
 def test_labels_and_stored_figures_are_those_of_the_page(drawn_once):
     assert {path.stem for path in drawn_once} == set(LABELS)
     for first in drawn_once:
