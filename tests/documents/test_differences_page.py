@@ -58,6 +58,7 @@ def test_elements_along_axes_have_their_names(tmp_path):
     assert [entry.get("data-lines") for entry in entries] == ["first", "second", "east [1]", "north [2]"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("fmus")
 def test_a_legend_hides_a_run_and_an_element_of_all_plots(browser, page):
     """The lines that are still drawn, as the values at the cursor name them."""

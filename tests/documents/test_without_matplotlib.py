@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from perilune.analysis.cli import main
+from tests.support.lengths import either
 from tests.support.pages.comparison_samples import write_sample
 
 SYSTEM = "orbital_attitude"
@@ -42,7 +43,9 @@ def both(arguments, folder):
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize(("arguments", "heading"), PAGES, ids=[arguments[0] for arguments, _ in PAGES])
+@pytest.mark.parametrize(
+    ("arguments", "heading"), PAGES[: either(2, 1)], ids=[arguments[0] for arguments, _ in PAGES[: either(2, 1)]]
+)
 def test_a_page_is_the_same_without_matplotlib(tmp_path, arguments, heading):
     page, other = both(arguments, tmp_path)
     assert page == other

@@ -102,6 +102,7 @@ def test_in_an_event_loop(campaign_folder):
         asyncio.run(call())
 
 
+@pytest.mark.slow
 def test_a_chosen_port(campaign_folder):
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

@@ -140,6 +140,7 @@ def test_a_campaign_is_explored(browser, campaign_folder, table):
         WebDriverWait(driver, 30).until(lambda each: selected(each) == whole)
 
 
+@pytest.mark.slow
 def test_ticks_stand_whole_on_their_canvas(browser, campaign_folder):
     """As a canvas is asked to write them when it is drawn for another choice of variants."""
     with showing([campaign_folder]) as (address, _), driven(browser, address) as driver:

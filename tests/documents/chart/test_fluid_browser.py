@@ -14,6 +14,7 @@ from selenium.webdriver.common.by import By
 
 from perilune.analysis.documents.figures.declared import CurveFigure
 from tests.support.documents.run_page import write_run_report
+from tests.support.lengths import either
 from tests.support.pages.driven import driven, scroll_to_plot
 from tests.support.pages.own_samples import TIME, flown, scalar
 
@@ -35,7 +36,7 @@ return {
 """
 
 
-@pytest.mark.parametrize("phone", [False, True])
+@pytest.mark.parametrize("phone", either([False, True], [True]))
 def test_texts_and_axes(browser, flight, phone):
     with driven(browser, flight / "page.html", phone=phone, unfolded=True) as driver:
         frames = driver.find_elements(By.CSS_SELECTOR, ".live:has(> svg.figure)")

@@ -25,6 +25,7 @@ from perilune.analysis.documents.chart.symbols import OUTLINES, arrow, marker, m
 from perilune.analysis.documents.interactive.charts import NO_BOX, Area, Backing, Chart, ChartNote, Dots
 from tests.documents.chart.test_history_charts import plain
 from tests.support.figures.read_figure import read_charts
+from tests.support.lengths import either
 
 ROWS = np.linspace(0.0, 4.0, 9)
 UNIT = linear_axis((0.0, 4.0), 4, label="time, s")
@@ -88,7 +89,7 @@ def test_everything_else():
 
 
 @given(st.floats(-math.pi, math.pi), st.floats(8.0, 40.0))
-@settings(max_examples=10)
+@settings(max_examples=either(10, 5))
 def test_arrows(angle, length):
     """matplotlib has paths of marks in another unit: their points, in pt, are the same."""
     chart = Chart(NO_BOX, UNIT, UNIT, curves=[arrow((1.0, 2.0), angle, length, "#6b6b6b")])

@@ -11,6 +11,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
+from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import parse
 from tests.support.pages.driven import driven
@@ -43,6 +44,7 @@ def test_a_mission_is_short_and_its_limits_come_first(browser, flight):
         assert bottom < driver.execute_script("return innerHeight") / 2
 
 
+@pytest.mark.slow
 def test_a_comparison_of_six_variants_is_short(browser, six_variants):
     with driven(browser, six_variants) as driver:
         assert driver.execute_script(HEIGHT) < HIGHEST_COMPARISON
@@ -51,7 +53,7 @@ def test_a_comparison_of_six_variants_is_short(browser, six_variants):
         assert all(row.rect["y"] + row.rect["height"] < 600 for row in rows)
 
 
-@pytest.mark.parametrize("made", ["flight", "recorded"])
+@pytest.mark.parametrize("made", either(["flight", "recorded"], ["flight"]))
 def test_contents_lead_to_every_section(browser, request, made):
     path = request.getfixturevalue(made) / "page.html"
     page = parse(path.read_text(encoding="utf-8"))

@@ -41,6 +41,7 @@ def test_pages_are_legible_on_a_telephone(browser, tmp_path, write):
     assert_legible(browser, tmp_path / "page.html", tmp_path)
 
 
+@pytest.mark.slow
 def test_a_comparison_is_legible_on_a_telephone(browser, tmp_path, comparison):
     assert_legible(browser, comparison / "page.html", tmp_path)
 

@@ -14,10 +14,11 @@ from perilune.analysis.documents.diagram.drawing import draw
 from perilune.analysis.documents.diagram.layout import lay_out
 from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.diagrams.graphs import graphs
+from tests.support.lengths import either
 
 
 @given(graph=graphs(), widest=st.sampled_from([150.0, 300.0, 1360.0]))
-@settings(max_examples=60)
+@settings(max_examples=either(60, 20))
 def test_any_graph(engine, graph, widest):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rows, "WIDEST", widest)  # so that small graphs have several rows

@@ -19,9 +19,11 @@ from perilune.common.paths import SYSTEMS
 from perilune.fmus_src.catalogue import block_kinds, catalogue
 from tests.support.diagrams.geometry import EXACT, Drawing, assert_readable
 from tests.support.large_systems import build_mixers, large_system
+from tests.support.lengths import LONG, either
 
 pytestmark = pytest.mark.usefixtures("fmus", "layout_bundle")
-RING = 60
+RING = either(60, 20)
+SHORT = ["landing_mission", "lunar_descent_2d", "entry_attitude", "ring"]
 
 
 @pytest.fixture(scope="module")
@@ -40,13 +42,14 @@ def folder_of(tmp_path_factory):
     return find
 
 
-@pytest.fixture(scope="module", params=[*system_names(), "ring"])
+@pytest.fixture(scope="module", params=either([*system_names(), "ring"], SHORT))
 def figure(request, folder_of):
     """Return the SSD's root, and the diagram."""
     folder = folder_of(request.param)
     prepared = prepare_system(folder)
     svg = make_diagram(prepared).svg
-    assert svg == make_diagram(prepare_system(folder)).svg
+    if LONG:  # test_page.py compares those of the largest
+        assert svg == make_diagram(prepare_system(folder)).svg
     return etree.parse(folder / "SystemStructure.ssd").getroot(), Drawing(str(svg))
 
 
@@ -98,7 +101,7 @@ def test_loops_back_are_below_their_blocks(figure):
     assert loops > 0
 
 
-@pytest.mark.parametrize("name", ["lunar_descent_2d", "lunar_landing"])
+@pytest.mark.parametrize("name", either(["lunar_descent_2d", "lunar_landing"], ["lunar_descent_2d"]))
 def test_every_recorded_signal_is_that_of_a_block(name):
     drawing = Drawing(str(make_diagram(prepare_system(name)).svg))
     groups = drawing.root.xpath("//*[@class='block' or @class='terminal']")

@@ -126,6 +126,7 @@ def test_the_second_cursor_and_the_visible_range(browser, flight):
         assert statistics == [f"{name} {number(quantity, 6)}" for name, quantity in exact.items()]
 
 
+@pytest.mark.slow
 def test_a_block_shows_its_signals(browser, flight):
     table = parquet.read_table(flight / "flight.parquet")
     row = int(np.searchsorted(table["time"].to_numpy(), 3900.0 - 1e-6))
@@ -212,6 +213,7 @@ def test_keys_wheel_and_buttons_zoom_about_the_cursor(browser, flight):
             assert actual == pytest.approx(np.clip(ideal, *ends[0]), abs=0.004 * half)
 
 
+@pytest.mark.slow
 def test_the_values_under_two_fingers_follow_them(browser, flight):
     with driven(browser, flight / "page.html", phone=True, unfolded=True) as driver:
         _, area = panel_of(driver, "plant.altitude")

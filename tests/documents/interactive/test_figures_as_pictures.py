@@ -126,7 +126,10 @@ SHIPPED = {  # pages of our systems
     write_recorded: [],
     write_demo: [],
 }
-PAGES = either(KINDS | SHIPPED, KINDS)
+PAGES = either(
+    KINDS | SHIPPED,
+    {write: KINDS[write] for write in (write_run, write_own, write_batch, write_stability, write_worst)},
+)
 
 
 TEMPLATES = {

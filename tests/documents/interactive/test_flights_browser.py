@@ -109,6 +109,7 @@ def test_card_and_scene_show_one_trial_at_one_time(browser, recorded):
         WebDriverWait(driver, 10).until(lambda _: card.panels()["plant.mass, kg"] == [mass])
 
 
+@pytest.mark.slow
 def test_on_a_phone_every_control_is_within_the_screen(browser, recorded):
     with driven(browser, recorded / "page.html", phone=True) as driver:
         driver.execute_script(

@@ -137,6 +137,7 @@ def test_a_distribution_names_its_trials(browser, batch):
         assert displayed == pytest.approx(row["metric.flight_time"], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_keys_go_along_a_distribution_and_pin(browser, batch):
     """Truth: the table's trials in the order of the metric."""
     table = parquet.read_table(batch / "out" / "trials").to_pylist()

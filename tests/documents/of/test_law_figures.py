@@ -19,6 +19,7 @@ from perilune.analysis.documents.font.text import text_width
 from perilune.analysis.documents.of.design.law_figures import law_chart, law_diagram
 from perilune.analysis.documents.render.diagram import diagram_svg
 from tests.support.laws.networks import matrices
+from tests.support.lengths import either
 
 GRAPHS = st.integers(2, 12).flatmap(
     lambda size: st.tuples(
@@ -116,7 +117,7 @@ def test_labels_do_not_lie_on_each_other():
         assert across <= 1.0 or down <= 1.0
 
 
-@settings(deadline=None, max_examples=10)
+@settings(deadline=None, max_examples=either(10, 5))
 @given(matrices())
 def test_any_law_can_be_drawn(matrix):
     assert len(texts(NetworkOperator("random", matrix, (1.0, 1.0, 1.0), "true"))) >= 2

@@ -45,12 +45,12 @@ addEventListener("load", () => {
 def hover():
     transfer = Transfer(1600.0, 2300.0, 1.622)
     more = {"adjoint": True, "finite_switches": True, "free_fall": True, "distances": (0.0, 500.0)}
-    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, intervals=40, **more)
+    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, intervals=either(40, 20), **more)
 
 
 @pytest.fixture(scope="module")
 def landing():
-    return landing_study(LANDER, LANDING, direct=True, intervals=40)
+    return landing_study(LANDER, LANDING, direct=True, intervals=either(40, 20))
 
 
 @pytest.fixture(scope="module")
@@ -97,10 +97,10 @@ def test_landing(landing, pages):
 
 
 def test_the_same_bytes_again(hover, landing, pages, tmp_path):
-    write_document(transfer_document(hover), tmp_path / "hover.html")
-    write_document(landing_bound_document(landing), tmp_path / "landing.html")
-    for name, path in pages.items():
-        assert (tmp_path / f"{name}.html").read_bytes() == path.read_bytes()
+    documents = {"hover": transfer_document(hover), "landing": landing_bound_document(landing)}
+    for name in either(["hover", "landing"], ["landing"]):
+        write_document(documents[name], tmp_path / "again.html")
+        assert (tmp_path / "again.html").read_bytes() == pages[name].read_bytes()
 
 
 def test_straight_down(tmp_path):
@@ -112,7 +112,7 @@ def test_straight_down(tmp_path):
     assert "Not computed: true optimum, point-mass bound." in text_of(text)
 
 
-@pytest.mark.parametrize("name", ["hover", "landing"])
+@pytest.mark.parametrize("name", either(["hover", "landing"], ["hover"]))
 @pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4800)], [(400, 4800)]))
 def test_page_renders(browser, pages, tmp_path, name, width, height):
     start(browser, pages[name], tmp_path, f"--window-size={width},{height}", f"--screenshot={tmp_path / 'page.png'}")
@@ -125,7 +125,7 @@ def test_page_renders(browser, pages, tmp_path, name, width, height):
     assert not inked[-40:].any()
 
 
-@pytest.mark.parametrize("name", ["hover", "landing"])
+@pytest.mark.parametrize("name", either(["hover", "landing"], ["hover"]))
 def test_nothing_overflows(browser, pages, tmp_path, name):
     measured = tmp_path / "measured.html"
     text = without_policy(pages[name].read_text(encoding="utf-8"))

@@ -217,6 +217,7 @@ def test_without_webgl_there_are_figures_and_one_sentence(browser, page):
         assert driver.find_elements(By.CSS_SELECTOR, ".live")
 
 
+@pytest.mark.slow
 def test_a_lost_context_is_said_and_comes_back(browser, page):
     with driven(browser, page) as driver:
         scene = SceneView(driver)
@@ -230,6 +231,7 @@ def test_a_lost_context_is_said_and_comes_back(browser, page):
         driver.get_log("browser")  # three.js reports the loss there
 
 
+@pytest.mark.slow
 def test_names_are_text_in_the_view(browser, tmp_path):
     require_bundle("scene")
     result, declared = descent(HOSTILE, rows=2)

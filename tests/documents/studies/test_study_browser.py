@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 from matplotlib import image
 
+from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.narrow import assert_legible
 
 BLUE, VERMILION = (0, 114, 178), (213, 94, 0)
 
 
-@pytest.fixture(scope="module", params=["rare", "worst", "sensitivity"])
+@pytest.fixture(scope="module", params=either(["rare", "worst", "sensitivity"], ["worst"]))
 def page(request, tmp_path_factory):
     path = tmp_path_factory.mktemp(request.param) / "page.html"
     request.getfixturevalue(f"{request.param}_result").report(path)

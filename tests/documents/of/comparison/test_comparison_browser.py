@@ -41,6 +41,7 @@ def test_every_figure_is_laid_out(browser, page, tmp_path):
     assert "3 variants on the same trials" in dom
 
 
+@pytest.mark.slow
 def test_the_cursor_has_the_median_alone_and_nothing_of_ellipses(browser, page):
     with driven(browser, page, unfolded=True) as driver:
         for label, count in (("ship.mass of alpha over time", 1), ("Final position of alpha about the target", 0)):

@@ -32,7 +32,8 @@ def test_page_renders_wide_and_narrow(browser, tmp_path, width, height):
     assert not inked[-40:].any()  # the whole page is in the picture
 
 
-@pytest.mark.parametrize(("width", "height"), either([(1100, 5600), (400, 10000)], [(1100, 5600)]))
+@pytest.mark.slow
+@pytest.mark.parametrize(("width", "height"), [(1100, 5600), (400, 10000)])
 def test_a_flight_through_phases_renders_wide_and_narrow(browser, mission_page, tmp_path, width, height):
     page = mission_page
     picture = tmp_path / "page.png"
