@@ -57,6 +57,7 @@ def test_rows_differ_in_one_input_only():
         assert np.array_equal(np.flatnonzero(~np.all(mix == first, axis=0)), [index])
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("fmus")
 def test_the_noise_of_a_landing(tmp_path, capsys):
     line = ["sensitivity", CAMPAIGN[0], "--campaign", CAMPAIGN[1], "--compare", "guidance=analytic_guidance"]

@@ -15,6 +15,7 @@ from perilune.analysis.campaigns.draws.table import BLOCK, CountedDraws, draw_pa
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.bounds import TABLE_TRIALS
 from perilune.common.errors import InputError
+from tests.support.lengths import either
 
 from .test_draws import ALPHA, DESIGN, PARTS, RANDOM
 
@@ -41,7 +42,7 @@ def test_values_follow_their_distributions(drawn):
     assert abs(following) * np.sqrt(20000 - BLOCK) < stats.norm.isf(ALPHA / 2)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=either(30, 10))
 @given(st.integers(0, 29000), st.integers(1, 3000))
 def test_a_trial_is_the_same_in_any_part(drawn, first, count):
     part = range(first, min(first + count, 30000))
@@ -61,7 +62,7 @@ def test_a_value_is_the_one_of_its_key_and_counter(drawn):
     assert drawn.of_part(range(7 * BLOCK + 8, 7 * BLOCK + 9)).columns["a"][0] == -2 + 5 * (int(words[0]) >> 11) * 2**-53
 
 
-@settings(deadline=None, max_examples=20)
+@settings(deadline=None, max_examples=either(20, 6))
 @given(st.integers(1, 70))
 def test_a_table_in_parts_is_the_table(campaign, size):
     whole = draw_table(campaign("".join(PARTS), trials=64))

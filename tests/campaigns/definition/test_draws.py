@@ -10,6 +10,7 @@ from scipy.stats import qmc
 from perilune.analysis.campaigns.draws.generators import generator, stream_numbers
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.common.errors import InputError
+from tests.support.lengths import either
 
 RANDOM = """
 [draw.a]
@@ -108,7 +109,7 @@ PARTS += [
 PARTS = [part.replace('"grid"\n', '"grid"\ncount = 4\n') for part in PARTS]
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=either(30, 10))
 @given(st.permutations(PARTS))
 def test_the_order_of_declaration_does_not_matter(campaign, parts):
     shuffled = draw_table(campaign("".join(parts), trials=32)).columns

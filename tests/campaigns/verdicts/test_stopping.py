@@ -10,13 +10,14 @@ from math import comb
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import binom
 
 from perilune.analysis.campaigns.verdicts.acceptance import AcceptanceVerdict, FixedSize, flights_needed
 from perilune.analysis.campaigns.verdicts.boundary import spending
 from perilune.analysis.campaigns.verdicts.stopping import StoppingRule, stopping_rule
+from tests.support.lengths import either
 
 RULE = stopping_rule(0.9987, 0.9)
 
@@ -199,6 +200,7 @@ def test_a_verdict_is_a_function_of_the_flights_in_order(kept, look, data):
 
 
 @given(st.floats(0.02, 0.999), st.floats(0.5, 0.999))
+@settings(max_examples=either(100, 10))
 def test_no_look_has_both_verdicts(share, confidence):
     rule = StoppingRule(share, confidence)
     analyses = rule.looks(64 * rule.look)

@@ -86,6 +86,7 @@ def exact(draws):
     ).loop
 
 
+@pytest.mark.slow  # test_the_least_disk_margin_of_a_box searches, too
 def test_a_gain_margin_in_closed_form(late, written):
     """With a gain K in the loop the margin is the nominal one over K, least at the most that K may be."""
     gain, _, _ = crossings(late_double_integrator().loop)

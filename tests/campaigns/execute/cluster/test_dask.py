@@ -62,6 +62,7 @@ def test_the_bytes_of_two_workers(cluster, line, whole, place):
     assert bytes_of(place / "two") == whole
 
 
+@pytest.mark.slow
 def test_shards_one_by_one(cluster, line, whole, place, capsys):
     out = str(place / "parts")
     assert main(["prepare", *line[1:], "--output", out]) == 0
@@ -75,7 +76,7 @@ def test_shards_one_by_one(cluster, line, whole, place, capsys):
     assert bytes_of(out) == whole
 
 
-@pytest.mark.parametrize("flavour", ["native", "python"])
+@pytest.mark.parametrize("flavour", either(["native", "python"], ["python"]))
 def test_without_a_folder(cluster, flavour):
     """Python FMUs, too, which fly in children of the workers."""
     compare = {"guidance": ["analytic_guidance"]}
@@ -254,6 +255,7 @@ def test_what_is_said_of_another_perilune():
         assert words in str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:.*one process per simulation")
 def test_trials_of_foreign_fmus_are_those_of_one_worker(cluster, tmp_path):
     """FMUs that leave something in their thread, process or folder."""

@@ -30,9 +30,8 @@ def whole(tmp_path_factory, fmus):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="seq and xargs are a shell's")
-@pytest.mark.parametrize(
-    "beginning", ["python fly_hyperqueue.py", pytest.param("seq 0 3 | xargs", marks=pytest.mark.slow)]
-)
+@pytest.mark.slow  # by processes, as test_shard_processes_that_are_killed; tests/docs carries out the rest of the page
+@pytest.mark.parametrize("beginning", ["python fly_hyperqueue.py", "seq 0 3 | xargs"])
 def test_a_recipe(whole, tmp_path, monkeypatch, beginning):
     if "hyperqueue" in beginning:
         pytest.importorskip("hyperqueue", reason="its wheels are for Linux only")

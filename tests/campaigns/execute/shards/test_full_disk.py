@@ -14,7 +14,7 @@ from perilune.analysis.cli import main
 from tests.support.campaigns.folders import bytes_of
 
 pytestmark = pytest.mark.usefixtures("fmus")
-CAMPAIGN = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "200"]
+CAMPAIGN = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "200", "--stop-time", "20"]
 
 
 def can_mount():

@@ -20,7 +20,7 @@ from tests.fuzz.folders import any_manifest, any_shard, make_folder, merge
 from tests.support.lengths import either
 
 pytestmark = pytest.mark.flies
-EXAMPLES = either(10000, 1000)
+EXAMPLES = either(10000, 250)
 
 
 @pytest.fixture(scope="module")

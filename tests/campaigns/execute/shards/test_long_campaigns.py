@@ -14,8 +14,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.campaigns import plotted_sample as shown_trials
-from perilune.analysis.campaigns import statistics, summary
+from perilune.analysis.campaigns import plotted_sample, statistics, summary
 from perilune.analysis.campaigns.definition.campaign import TrialGroup
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
@@ -137,8 +136,8 @@ def test_more_trials_than_a_table_has(counted, tmp_path, capsys):
 
 
 def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
-    monkeypatch.setattr(shown_trials, "FIRST", 30)
-    monkeypatch.setattr(shown_trials, "FAILURES", 4)
+    monkeypatch.setattr(plotted_sample, "FIRST", 30)
+    monkeypatch.setattr(plotted_sample, "FAILURES", 4)
     result = mixed_batch(100)
     whole = mixed_batch(100)
     shaky = result.plotted["shaky"]
@@ -183,7 +182,8 @@ class Made(TrialTable):
 
 def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     for module in (statistics, summary):
-        monkeypatch.setattr(module, "IN_MEMORY", 20_000)
+        monkeypatch.setattr(module, "IN_MEMORY", 10_000)
+    monkeypatch.setattr(plotted_sample, "FIRST", either(FIRST, 30_000))
     requirement = Requirement("near", Expression("miss < 3"), 0.99, 0.9, "miss")
     groups = [TrialGroup("1", 1.0)]
 
@@ -195,10 +195,10 @@ def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         assert actual["made"].trials == trials
-        assert figures.first.success.size == FIRST
+        assert figures.first.success.size == plotted_sample.FIRST
         return peak
 
-    few, many = either((1_000_000, 4_000_000), (110_000, 220_000))
+    few, many = either((1_000_000, 4_000_000), (40_000, 80_000))
     assert most(many) < 1.05 * most(few) + 3 * (many - few)  # verdicts hold three bytes a trial for a moment
 
 
