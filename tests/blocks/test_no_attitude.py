@@ -21,6 +21,7 @@ from perilune.fmus_src.navigation.attitude_filter import AttitudeFilter
 from perilune.fmus_src.navigation.attitude_navigation import AttitudeNavigationStatus
 from perilune.fmus_src.navigation.attitude_navigation_filter import AttitudeNavigationFilter
 from perilune.fmus_src.navigation.translation_filter import TranslationFilter
+from tests.support.lengths import either
 
 ATTITUDE = [math.cos(0.1), math.sin(0.1), 0.0, 0.0]
 LOST = [[0.0] * 4, [0.3, 0.2, -0.2, 0.1]]
@@ -158,7 +159,7 @@ def test_a_slew_waits_for_an_attitude(quaternion):
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("flavour", ["native", "python"])
+@pytest.mark.parametrize("flavour", either(["native", "python"], ["native"]))
 def test_a_satellite_flies_through_a_loss_of_its_tracker(flavour):
     """Zeros were normalised to no rotation: the filter took the inertial axes for its attitude, and tumbled."""
     faults = [

@@ -25,6 +25,7 @@ from perilune.fmus_src.kernel.matrices import (
     zeros,
 )
 from perilune.fmus_src.kernel.vector_types import vector
+from tests.support.lengths import either
 
 seeds = st.integers(0, 2**32 - 1)
 sizes = st.integers(1, 6)
@@ -45,7 +46,7 @@ def test_the_cross_matrix_is_that_of_the_vector_product(seed):
     assert np.asarray(cross_matrix(vector(*v))) @ u == pytest.approx(np.cross(v, u), rel=1e-14, abs=1e-15)
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(seeds, st.integers(1, 15), st.integers(1, 15), st.integers(1, 15))
 def test_operators_are_those_of_numpy(seed, n, m, k):
     generator = np.random.default_rng(seed)
@@ -159,7 +160,7 @@ def test_what_makes_matrices():
     assert np.array_equal(np.array(identity(3)), np.eye(3))
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(seeds, st.integers(1, 15))
 def test_sums_of_products(seed, n):
     a, b, q = random_matrices(seed, n, 3)
@@ -167,7 +168,7 @@ def test_sums_of_products(seed, n):
 
 
 @given(st.integers(1, 15), seeds)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 13), deadline=None)
 def test_an_inverse_quadratic_form_is_that_of_a_solved_system(n, seed):
     (root,) = random_matrices(seed, n)
     p = root @ root.T + np.eye(n)
@@ -182,7 +183,7 @@ def test_an_inverse_quadratic_form_says_where_a_matrix_is_not_positive():
     assert inverse_quadratic_form(matrix([float("nan")]), matrix([0.0])) == -1.0
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(seeds, sizes)
 def test_inverses(seed, n):
     (a,) = random_matrices(seed, n)
@@ -219,7 +220,7 @@ def exact_exponential(a):
     return np.array([[float(entry) for entry in row] for row in total])
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(seeds, sizes, st.floats(-5.0, 5.0))
 @example(1845, 3, 1.0)  # expm of scipy is 2e-12 off
 def test_exponentials(seed, n, t):

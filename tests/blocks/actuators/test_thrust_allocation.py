@@ -282,7 +282,7 @@ def test_thrust_lead_gives_the_impulse_that_a_lag_would_add(duration, lag):
 
 
 @given(st.sampled_from([0.0, 0.3, 1.1]), st.sampled_from([0.0, 10.0]), st.integers(-3, 3))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=either(30, 10), deadline=None)
 def test_direction_lead_commands_the_direction_of_later(lead, slew, tenths):
     """At the next communication point, for demands of now, earlier and later."""
     block = allocation(direction_lead=lead, demanded_direction_rate=RATE, slew_rate_limit=slew, demanded_duration=5.0)

@@ -19,6 +19,7 @@ from perilune.fmus_src.mathlib.orbits.attitude import AttitudeState, linear_mode
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, JET_TORQUE, ORBITAL_RATE
+from tests.support.lengths import either
 
 WANTED = [0.0, 0.0, -ORBITAL_RATE]
 WANTED_VECTOR = vector(*WANTED)
@@ -51,7 +52,7 @@ def test_gains_of_the_modal_law():
 poles = st.lists(st.floats(0.01, 1.0), min_size=3, max_size=3)
 
 
-@settings(max_examples=30)
+@settings(max_examples=either(30, 10))
 @given(poles, poles, st.integers(0, 2**32 - 1))
 def test_angles_and_their_lack_decay_as_placed(angle_poles, rate_poles, seed):
     """a' = S1 a + z and z' = S0 z in the linear model, for any body: to 1e-9."""
@@ -98,7 +99,7 @@ def test_arrival_lets_small_errors_be(error, asked):
     assert (torque[1] != 0.0) == asked
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(st.floats(0.0, 500.0), st.floats(-1.0, 1.0))
 def test_the_turn_goes_to_its_angle_and_back(time, angle):
     block = regulator(OrbitalArrivalControl, turn_angle=angle)
@@ -140,7 +141,7 @@ def test_the_derivative_regulator_holds_the_body_in_the_orbital_frame():
     assert answer(block, [0.0] * 3, WANTED, 0.0) == pytest.approx(expected, abs=1e-15)
 
 
-@settings(max_examples=100)
+@settings(max_examples=either(100, 33))
 @given(st.integers(0, 2**32 - 1))
 def test_which_poles_stand_a_delay(seed):
     """Hurwitz's condition, against eigenvalues by numpy."""

@@ -17,11 +17,12 @@ from perilune.fmus_src.guidance.hover_guidance import HoverGuidance
 from perilune.fmus_src.interfaces.ports.landing import HoverMode
 from perilune.fmus_src.runtime import BlockInstance
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, TARGET, H, begun, fly
+from tests.support.lengths import either
 
 small = st.floats(-5.0, 5.0)
 
 
-@settings(max_examples=50)
+@settings(max_examples=either(50, 16))
 @given(st.tuples(small, small, small), st.tuples(small, small, small).map(lambda v: np.array(v) / 10.0))
 def test_the_law_gives_the_acceleration_of_its_loop(error, slip):
     """Holding, without low-pass, the command is gravity and w^2 e + 2 damping w ev, exactly."""

@@ -60,7 +60,7 @@ def test_analytic_command_along_the_y_axis_exactly(guidance_class, side):
 
 @pytest.mark.parametrize("guidance_class", ALL)
 @given(state=box)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 13), deadline=None)
 def test_commands_mirror_with_the_frame(guidance_class, state):
     position, velocity = state
     mirror = np.array([1.0, -1.0, 1.0])
@@ -73,7 +73,7 @@ def test_commands_mirror_with_the_frame(guidance_class, state):
 
 @pytest.mark.parametrize("guidance_class", ALL)
 @given(state=box, shift=st.lists(st.integers(-5000, 5000).map(float), min_size=3, max_size=3))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 13), deadline=None)
 def test_commands_move_with_the_target(guidance_class, state, shift):
     position, velocity = state
     plain = commanded(guidance_class, position, velocity)
@@ -90,7 +90,7 @@ def test_commands_move_with_the_target(guidance_class, state, shift):
     length=st.integers(1, 100).map(lambda number: number / 10.0),
     duration=st.integers(1, 100).map(lambda number: number / 10.0),
 )
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=either(40, 13), deadline=None)
 def test_commands_scale_with_the_units_of_length_and_time(guidance_class, state, length, duration):
     position, velocity = state
     speed, acceleration = length / duration, length / duration**2

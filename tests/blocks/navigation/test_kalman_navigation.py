@@ -103,7 +103,7 @@ def test_nine_states_need_tuning_to_the_flight():
 
 
 def test_with_perfect_sensors_the_estimate_stays_on_the_trajectory():
-    for settings in ({}, {"innovation_gate": 1e-30}):  # with updates, and on increments alone
+    for settings in ({}, {"innovation_gate": 1e-30})[: either(2, 1)]:  # with updates, and on increments alone
         for k, block in plain(KalmanNavigation, measurements(scale=0.0), **NO_FIRST_ERRORS, **settings):
             error = state_of(block) - truth(k)
             assert np.linalg.norm(error[:3]) < 1e-3
@@ -159,7 +159,7 @@ def test_covariance_settles_on_the_solution_of_the_riccati_equation():
     settings = PERFECT_INERTIAL | {"velocity_random_walk": walk, "position_relative_sigma": 0.0}
     block = KalmanNavigation(position=[2e5, 0.0, 1e4], innovation_gate=0.0, **settings)
     block.initialize()
-    for k in range(3000):
+    for k in range(either(3000, 1500)):
         block.position_count += 1
         block.step(k * STEP, STEP)
     f = np.array([[1.0, STEP], [0.0, 1.0]])
@@ -273,6 +273,7 @@ def test_with_reacquire_a_sensor_that_insists_is_believed():
             assert block.estimated_position[0] - truth(k)[0] == pytest.approx(offset, rel=0.1)
 
 
+@pytest.mark.slow  # test_with_reacquire_a_sensor_that_insists_is_believed has the same branch
 def test_a_wrong_estimate_is_mended_by_reacquire():
     """The inertial sensor jumps by 0.5 m/s2 in mid-flight: locked out without, back on the trajectory with it."""
     seen = measurements(5)
@@ -285,6 +286,7 @@ def test_a_wrong_estimate_is_mended_by_reacquire():
     assert errors[False] > 100.0
 
 
+@pytest.mark.slow
 def test_between_inertial_samples_the_estimate_goes_on():
     """Points twice as dense as inertial samples, and fixes between those: perfect sensors, 2 cm and 2 cm/s.
 

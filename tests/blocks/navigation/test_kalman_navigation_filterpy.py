@@ -17,6 +17,7 @@ from perilune.fmus_src.navigation.kalman_filterpy import KalmanNavigationFilterp
 from perilune.fmus_src.runtime import BlockInstance
 from tests.support.flights.braking_flight import STEP, measurements
 from tests.support.flights.navigation_runs import plain, state_of
+from tests.support.lengths import either
 
 COMPARED = (
     "estimated_position",
@@ -39,7 +40,7 @@ def with_trouble(seen, trouble):
     return seen
 
 
-@pytest.mark.parametrize(("seed", "trouble"), [(1, "none"), (2, "outlier"), (3, "shift")])
+@pytest.mark.parametrize(("seed", "trouble"), either([(1, "none"), (2, "outlier"), (3, "shift")], [(2, "outlier")]))
 def test_agrees_over_a_whole_flight(seed, trouble):
     seen = with_trouble(measurements(seed), trouble)
     settings = {"seed": 4, "stream": seed, "reacquire": trouble == "shift"}

@@ -92,7 +92,7 @@ def fly(block, flight, steps):
         yield sample, force, flight.planned_velocity
 
 
-@pytest.mark.parametrize("far", [False, True])
+@pytest.mark.parametrize("far", either([False, True], [True]))
 @pytest.mark.parametrize("force_error", [0.0, 0.05])
 def test_kalman_filter_follows_filterpy(far, force_error):
     density = 1e-10
@@ -125,7 +125,7 @@ def test_kalman_filter_follows_filterpy(far, force_error):
 
 
 def test_errors_and_innovations_are_as_large_as_the_covariance_says():
-    density, flights = 1e-9, either(60, 25)
+    density, flights = 1e-9, either(60, 12)
     position, velocity, innovations = 0.0, 0.0, []
     for seed in range(flights):
         block = TranslationFilter(process_noise=density)
@@ -147,7 +147,7 @@ def test_known_force_leaves_a_small_error():
     block = TranslationFilter()
     flight = Flight(4)
     worst = 0.0
-    for n, _ in enumerate(fly(block, flight, either(16000, 10000))):
+    for n, _ in enumerate(fly(block, flight, either(16000, 8000))):
         if n > 8000:
             worst = max(worst, abs(np.array(block.position_error) - flight.position).max())
     assert worst < 0.0025

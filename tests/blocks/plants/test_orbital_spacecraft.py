@@ -21,6 +21,7 @@ from tests.support.flights.orbital_motion import (
     body_from_orbital,
     flown,
 )
+from tests.support.lengths import either
 
 CORNER = ([3.0 * DEGREE, 17.0 * DEGREE, 3.0 * DEGREE], [0.01 * DEGREE] * 3)
 TICK = 0.2
@@ -117,7 +118,7 @@ angle = st.floats(-0.5, 0.5)
 rate = st.floats(-0.05, 0.05)
 
 
-@settings(max_examples=30)
+@settings(max_examples=either(30, 10))
 @given(st.tuples(angle, angle, angle), st.tuples(rate, rate, rate))
 def test_angles_turn_as_direction_cosines_do(angles, w):
     """Half a step of 1e-3 s either way: the cosines' own derivative, to 1e-8 rad/s."""

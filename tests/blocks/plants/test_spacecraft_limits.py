@@ -11,7 +11,6 @@ import perilune
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.interfaces.ports.space import CelestialBody
 from perilune.fmus_src.plants.spacecraft import Spacecraft, SpacecraftStatus
-from tests.support.lengths import LONG
 from tests.support.native.named_instance import NamedInstance
 from tests.support.space.states import FAR, FRICTIONLESS, PARTICLES, QUIET
 
@@ -179,7 +178,8 @@ class IsothermalSpacecraft(Spacecraft):
 '''
 
 
-@pytest.mark.parametrize("version", [2, pytest.param(3, marks=pytest.mark.skipif(not LONG, reason="compiles for 8 s"))])
+@pytest.mark.slow  # docs/guides/exchange_a_model.md has such a class, too, which tests/docs exports
+@pytest.mark.parametrize("version", [2, 3])
 def test_a_class_with_another_density(version, tmp_path, monkeypatch):
     """Drag on a sphere -rho C_D A |v| v/(2 m) with the density of the class, in every flavour, with equal bits."""
     if local_platform(version) is None:

@@ -19,6 +19,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from perilune.fmus_src.plants.spherical_moon_lander import SphericalMoonLander
+from tests.support.lengths import either
 
 RADIUS = 1.7374e6
 MU = 4.9028e12
@@ -303,7 +304,7 @@ def test_responses_too_short_to_count_are_none():
 
 
 @given(st.lists(st.integers(1, 60), min_size=1, max_size=8), st.integers(1, 5999), st.booleans())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=either(25, 8), deadline=None)
 def test_results_do_not_depend_on_how_communication_cuts_them(cuts, thousandths, effects):
     """Communication points at whole multiples of the internal step; thrust ends anywhere."""
     effect = {} if effects else IDEAL
@@ -347,7 +348,7 @@ def test_a_moon_without_curvature_or_mass_flow_is_the_flat_one():
 
 
 @given(st.floats(-math.pi, math.pi))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=either(20, 6), deadline=None)
 def test_motion_turns_with_the_frame_about_the_vertical(azimuth):
     turn = Rotation.from_rotvec([0.0, 0.0, azimuth])
     plain = lander()

@@ -72,6 +72,7 @@ def test_momentum_is_conserved_whatever_the_wheels_do(seed):
     np.testing.assert_allclose(momentum(block), observed, atol=1e-12 * np.linalg.norm(observed) + 1e-12)
 
 
+@pytest.mark.slow
 @given(seeds)
 def test_energy_is_conserved_without_motors_and_friction(seed):
     block = plant(**random_start(seed), **FRICTIONLESS, internal_step=1.0 / 128.0)

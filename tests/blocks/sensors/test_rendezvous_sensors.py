@@ -15,7 +15,7 @@ from perilune.fmus_src.sensors.star_inertial import StarInertial
 from tests.support.lengths import either
 
 ARCSEC = np.pi / 180.0 / 3600.0
-SAMPLES = either(20_000, 10_000)
+SAMPLES = either(20_000, 4_000)
 
 
 def assert_white_normal(errors, sigma):

@@ -17,6 +17,7 @@ from perilune.fmus_src.mathlib.estimation.attitude_errors import random_walks, t
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.navigation.attitude_navigation import AttitudeNavigationStatus
 from perilune.fmus_src.navigation.attitude_navigation_filter import AttitudeNavigationFilter
+from tests.support.lengths import either
 
 SIGMA, WALK, DRIFT, PERIOD = 3e-5, 1e-6, 1e-8, 1.0
 NO_TURN = [1.0, 0.0, 0.0, 0.0]
@@ -60,7 +61,7 @@ def riccati(sigma, walk, drift, period):
     return back @ p @ back
 
 
-@pytest.mark.parametrize("drift", [1e-8, 3e-7])
+@pytest.mark.parametrize("drift", either([1e-8, 3e-7], [3e-7]))
 def test_the_steady_state_is_farrenkopfs(drift):
     """Without turns the axes are three filters of an angle and a bias, predicted in eight steps between samples."""
     block, step = navigation(bias_random_walk=drift, first_bias_sigma=1e-6), PERIOD / 8.0
@@ -105,10 +106,10 @@ def test_the_steady_state_of_a_small_satellite():
 
 
 def test_errors_have_the_covariance_that_the_filter_states():
-    """Sixty flights of a turning satellite: the normalised errors of attitude and bias are chi-square of six each."""
+    """Normalised errors of attitude and bias of a turning satellite are chi-square of six each."""
     random, step, ticks = np.random.default_rng(2012), 0.25, 160
     rate, squares = np.array([0.02, -0.03, 0.01]), []
-    for _ in range(60):
+    for _ in range(either(60, 25)):
         bias = 1e-5 * random.normal(size=3)
         truth = Rotation.random(rng=random)
         block = AttitudeNavigationFilter(
