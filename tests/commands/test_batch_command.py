@@ -51,6 +51,7 @@ confidence = "90 %"
 """
 
 
+@pytest.mark.slow
 def test_the_worst_trial_has_its_command(capsys, tmp_path):
     """The largest of an upper bound, the smallest of a lower one, nan before all; by variant, of a stored campaign."""
     metrics = """

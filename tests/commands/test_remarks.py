@@ -3,6 +3,8 @@
 Truth: files before and after an edit; the descriptions of the FMUs' own statuses; the flight's signals.
 """
 
+import shutil
+from contextlib import chdir
 from pathlib import Path
 
 import pytest
@@ -14,12 +16,21 @@ from perilune.fmus_src.export.sources import NAME, find_changed_source, record_s
 pytestmark = pytest.mark.usefixtures("fmus")
 
 
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    """Return a folder with a new system and its Python FMUs."""
+    folder = tmp_path_factory.mktemp("exported")
+    with chdir(folder):
+        perilune.new_system("axis")
+        perilune.export("axis/blocks.py", flavour="python")
+    return folder
+
+
 @pytest.fixture
-def own(tmp_path, monkeypatch):
-    """Return the user's folder with a new system and its Python FMUs."""
+def own(exported, tmp_path, monkeypatch):
+    """Return the user's folder with a copy of them."""
+    shutil.copytree(exported, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
-    perilune.new_system("axis")
-    perilune.export("axis/blocks.py", flavour="python")
     return tmp_path
 
 

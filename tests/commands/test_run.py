@@ -83,6 +83,7 @@ def test_a_folder_of_a_shipped_systems_name_is_meant_by_its_path(tmp_path, monke
     assert json.loads(capsys.readouterr().out)["steps"] == 20  # of 0.1 s
 
 
+@pytest.mark.slow
 def test_the_command_of_a_page_writes_the_page_again(tmp_path):
     options = ["--use", "guidance=astar_guidance", "--set", "plant.initial_mass=900", "--stop-time", "20"]
     faults = ["--fault", "plant.mass=bias:1@2", "--record", "plant.initial_mass", "--require", "time < 300"]

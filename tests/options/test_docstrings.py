@@ -32,7 +32,11 @@ LONGER = {  # examples that `make long` alone carries out
     "worst": "600 flights",
     "sensitivity": "hundreds of flights",
     "stability": "nine channels and a sweep",
+    "design bound": "tests/docs carries out the same command",
     "design bounds": "needs the extra plan",
+    "describe": "likewise: tests/docs",
+    "export": "likewise: tests/docs",
+    "shard": "150 flights",
     "verify": "all trajectories of an FMU",
 }
 SERVES = "show"  # until Ctrl-C: tests/show/test_process.py

@@ -9,7 +9,7 @@ import shlex
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.analysis.cli import parser_of
@@ -17,6 +17,7 @@ from perilune.analysis.options.command import write_command
 from perilune.analysis.options.option import Kind, defaults_of, options_of
 from perilune.analysis.options.parsing import read_parsed
 from perilune.analysis.verbs.options.verbs import GROUPS, VERBS
+from tests.support.lengths import either
 
 PLAIN = st.text(alphabet="abcXYZ019._[]", min_size=1, max_size=12)
 BLANKS = st.text(alphabet="ab $'\"\\*;-#(){}", min_size=1, max_size=12).filter(lambda text: text.strip() == text)
@@ -90,6 +91,7 @@ def test_a_printed_command_parses_back(name):
     declared = options_of(verb.options)
     some = SimpleNamespace(runs=0)
 
+    @settings(max_examples=either(100, 10))
     @given(st.fixed_dictionaries({}, optional={each: values(option) for each, option in declared.items()}))
     def parses_back(options):
         arguments = {

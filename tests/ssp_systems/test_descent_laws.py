@@ -19,18 +19,19 @@ def fly(campaign, laws, trials):
     return perilune.batch(SYSTEM, campaign, compare={"guidance": laws}, trials=trials).trials
 
 
-@pytest.mark.parametrize("campaign", ["laws_terminal", "laws_braking"])
+@pytest.mark.parametrize("campaign", either(["laws_terminal", "laws_braking"], ["laws_braking"]))
 def test_laws_of_a_braking_hit_the_point(campaign):
-    for law, actual in fly(campaign, BRAKING, either(60, 4)).items():
+    for law, actual in fly(campaign, BRAKING, either(60, 2)).items():
         assert actual.success.all(), law
         assert np.mean(actual.metrics["pinpoint"]) > 0.97, law
         assert np.min(actual.metrics["excess"]) > 0.0, law
         assert np.max(actual.metrics["largest_demand"]) < 5400.0, law
 
 
+@pytest.mark.slow
 def test_zem_zev_takes_less_propellant_than_the_exact_analytic_law():
     for campaign, gain in (("laws_terminal", 1.0), ("laws_braking", 2.5)):
-        flown = fly(campaign, ["analytic_exact_guidance", "zem_zev_guidance"], either(60, 4))
+        flown = fly(campaign, ["analytic_exact_guidance", "zem_zev_guidance"], either(60, 2))
         exact, zem_zev = (actual.metrics["propellant"] for actual in flown.values())
         assert np.all(exact - zem_zev > 0.0)
         assert np.mean(exact - zem_zev) > gain
@@ -43,17 +44,17 @@ def test_a_gravity_turn_has_no_place():
 
 def test_diverts_of_the_braking_end_at_the_new_place():
     laws = ["analytic_exact_guidance", *BRAKING]
-    for law, actual in fly("laws_divert_braking", laws, either(30, 2)).items():
+    for law, actual in fly("laws_divert_braking", laws, either(30, 1)).items():
         assert actual.success.all(), law
         assert np.all(actual.metrics["pinpoint"] == 1.0), law
         # the first target is 2121 m aside
         assert actual.metrics["position_error"] == pytest.approx(np.full(len(actual.trial), 2121.0), abs=15.0)
 
 
-@pytest.mark.parametrize("campaign", ["laws_approach", "laws_divert"])
+@pytest.mark.parametrize("campaign", either(["laws_approach", "laws_divert"], ["laws_approach"]))
 def test_laws_near_the_ground(campaign):
     """The search keeps the cone where it is not moved; all that have a place hit it."""
-    flown = perilune.batch(SYSTEM, campaign, trials=either(60, 3)).trials
+    flown = perilune.batch(SYSTEM, campaign, trials=either(60, 2)).trials
     for law in ("analytic_exact_guidance", "zem_zev_guidance", "zem_zev_least_effort", "fractional_searched"):
         actual = flown[law]
         assert np.mean(actual.metrics["pinpoint"]) >= 0.9, law
@@ -64,7 +65,7 @@ def test_laws_near_the_ground(campaign):
 
 def test_three_percent_less_thrust_than_known_fails_no_law():
     """At most one in a hundred of the laws that know the engine."""
-    for law, actual in fly("laws_thrust", [*BRAKING, "convex_guidance"], either(300, 2)).items():
+    for law, actual in fly("laws_thrust", [*BRAKING, "convex_guidance"], either(300, 1)).items():
         assert np.mean(actual.success) >= 0.99, law
         assert np.max(actual.metrics["aim_error"]) < 20.0, law
 
@@ -72,7 +73,7 @@ def test_three_percent_less_thrust_than_known_fails_no_law():
 def test_bad_knowledge_and_a_dead_band_of_thrust():
     """A law that ends with a thrust above the band gets the whole thrust then, and is too fast."""
     laws = ["analytic_exact_guidance", "zem_zev_guidance", "convex_guidance"]
-    for law, actual in fly("laws_robust", laws, either(60, 3)).items():
+    for law, actual in fly("laws_robust", laws, either(60, 1)).items():
         assert np.max(actual.metrics["aim_error"]) < 20.0, law
         assert np.max(actual.metrics["velocity_error"]) < 6.0, law
         assert (np.mean(actual.metrics["pinpoint"]) > 0.9) == (law == "analytic_exact_guidance")

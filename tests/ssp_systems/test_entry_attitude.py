@@ -82,6 +82,7 @@ def test_the_nominal_flight():
     assert not flight["plant.status"].any()
 
 
+@pytest.mark.slow
 def test_cases_without_sensor_errors(ideal):
     for regulator, trials in ideal.items():
         assert trials.metrics["propellant"][0] == pytest.approx(CASE_0[regulator], abs=0.0016), regulator

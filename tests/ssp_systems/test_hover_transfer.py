@@ -169,6 +169,7 @@ def test_too_heavy_to_hover_is_said():
     assert set(flight["hover.plan_kind"]) == {0}
 
 
+@pytest.mark.slow
 def test_margins_of_the_hold():
     """The attitude loop is a double integrator under 1.2 and 1.5, sampled; the loop around it moves it by little."""
     loops = {loop.name: loop for loop in perilune.stability(SYSTEM).loops}

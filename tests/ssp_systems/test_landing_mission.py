@@ -112,7 +112,9 @@ def test_flight_is_free_only_while_the_engine_rests(ideal):
     assert not free[started(ideal, 4) :].any()
 
 
-@pytest.mark.parametrize("guidance", ["analytic_exact_guidance", "astar_robust_guidance"])
+@pytest.mark.parametrize(
+    "guidance", either(["analytic_exact_guidance", "astar_robust_guidance"], ["astar_robust_guidance"])
+)
 def test_noisy_flights_touch_down_within_all_limits(guidance):
     trials = either(1000, 5)
     batch = perilune.batch(
@@ -130,7 +132,7 @@ def test_noisy_flights_touch_down_within_all_limits(guidance):
 
 def test_a_start_that_is_badly_known_lands_too():
     """500 m and 1 m/s bring the pericentre from 4 to 26 km: a low one is flown to the braking range all the same."""
-    trials = either(60, 9)
+    trials = either(60, 3)
     batch = perilune.batch(
         SYSTEM,
         "contacts",
@@ -143,7 +145,9 @@ def test_a_start_that_is_badly_known_lands_too():
     assert flown.success.sum() >= math.floor(59 / 60 * trials)
 
 
-@pytest.mark.parametrize("name", ["hover.sample_period", "inertial.sample_period", "sequencer.cycle"])
+@pytest.mark.parametrize(
+    "name", either(["hover.sample_period", "inertial.sample_period", "sequencer.cycle"], ["inertial.sample_period"])
+)
 def test_the_flight_software_has_one_sample_period(name, capfd):
     """No parameter that shares it can be set apart: refused before the simulation, with the others named."""
     assert main(["run", SYSTEM, "--parameters", "start_9.ssv", "--set", f"{name}=0.2"]) == 2
@@ -159,7 +163,7 @@ def test_the_flight_software_has_one_sample_period(name, capfd):
     assert perilune.simulate(SYSTEM, parameters=["start_9.ssv"], set={name: 0.1}).status == "finished"
 
 
-@pytest.mark.parametrize("phase", range(1, 10))
+@pytest.mark.parametrize("phase", either(range(1, 10), (2, 5, 9)))
 def test_a_flight_may_begin_with_any_phase(phase):
     first = [f"start_{phase}.ssv", "noisy.ssv"]
     if LONG and phase > 3:
@@ -179,10 +183,10 @@ def contact(flight):
 
 
 @pytest.mark.parametrize("errors", either(["ideal.ssv", "noisy.ssv"], ["ideal.ssv"]))
-@pytest.mark.parametrize("step", [0.05, 0.02, 0.01])
+@pytest.mark.parametrize("step", either([0.05, 0.02, 0.01], [0.02]))
 def test_a_landing_does_not_depend_on_the_communication_step(step, errors):
     """Whoever steps the system, the flight software has its own cycle; what is left is that of the plant."""
-    first = [errors] if LONG or step == 0.05 else ["start_3.ssv", errors]  # the coast is most of the time
+    first = [errors] if LONG else ["start_3.ssv", errors]  # the coast is most of the time
     shipped, stepped = (perilune.simulate(SYSTEM, parameters=first, step=each) for each in (0.1, step))
     within_limits(stepped)
     assert stepped["sequencer.status"][-1] == shipped["sequencer.status"][-1] == 0
@@ -191,7 +195,7 @@ def test_a_landing_does_not_depend_on_the_communication_step(step, errors):
     assert times[0] == pytest.approx(times[1], abs=0.101)  # a decision may come a cycle earlier or later
 
 
-@pytest.mark.parametrize("step", [0.075, 0.03])
+@pytest.mark.parametrize("step", either([0.075, 0.03], [0.075]))
 def test_steps_that_do_not_divide_the_cycle_land_too(step):
     """Samples then come late, by up to a step; so does the end of thrust after the probe's contact."""
     flight = perilune.simulate(SYSTEM, parameters=["start_3.ssv", "ideal.ssv"], step=step)
@@ -201,7 +205,7 @@ def test_steps_that_do_not_divide_the_cycle_land_too(step):
     assert contact(flight) == pytest.approx(contact(shipped), abs=0.1)
 
 
-@pytest.mark.parametrize("noise", ["ideal.ssv", "noisy.ssv"])
+@pytest.mark.parametrize("noise", either(["ideal.ssv", "noisy.ssv"], ["noisy.ssv"]))
 def test_a_start_at_rest_in_hover_1_holds_at_once(noise):
     """No capture: the time of hover alone, at the cost of the weight; in either order of the sets."""
     flights = [perilune.simulate(SYSTEM, parameters=sets) for sets in (["start_4.ssv", noise], [noise, "start_4.ssv"])]
@@ -279,7 +283,7 @@ def test_what_makes_no_landing_ends_at_once():
 
 
 def test_both_flavours_fly_the_same_to_the_bit():
-    first = ["noisy.ssv"] if LONG else ["start_6.ssv", "noisy.ssv"]
+    first = ["noisy.ssv"] if LONG else ["start_8.ssv", "noisy.ssv"]
     ours, theirs = (perilune.simulate(SYSTEM, parameters=first, flavour=each) for each in ("native", "python"))
     assert ours.time.size == theirs.time.size
     for name, values in ours.signals.items():

@@ -18,6 +18,7 @@ from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.paths import ROOT
+from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -75,7 +76,7 @@ def tightest_of(lines):
     return min(lines, key=reserve)
 
 
-@pytest.mark.parametrize("name", TRUTH)
+@pytest.mark.parametrize("name", either([*TRUTH], [*TRUTH][:2]))
 def test_the_limits_of_a_system(name, capsys):
     assert main(["run", name]) == 0
     said = capsys.readouterr().out.splitlines()[1:]

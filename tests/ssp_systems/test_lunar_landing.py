@@ -35,7 +35,7 @@ def last(result, name, size=3):
     return np.array([result[f"{name}[{i + 1}]"][-1] for i in range(size)])
 
 
-@pytest.mark.parametrize("campaign", ["compare", "terminal_box"])
+@pytest.mark.parametrize("campaign", either(["compare", "terminal_box"], ["terminal_box"]))
 def test_exact_guidances_meet_the_target_without_limits_and_errors(campaign):
     exact = ["analytic_exact_guidance", "astar_robust_guidance"]
     for actual in fly(campaign, exact, either(40, 4), parameters=["ideal.ssv", "without_limits.ssv"]).values():
@@ -45,14 +45,14 @@ def test_exact_guidances_meet_the_target_without_limits_and_errors(campaign):
 
 
 def test_every_guidance_hands_over_and_all_but_one_hit_the_point():
-    for name, actual in fly("compare", GUIDANCES, either(25, 3), parameters=["ideal.ssv"]).items():
+    for name, actual in fly("compare", GUIDANCES, either(25, 1), parameters=["ideal.ssv"]).items():
         assert actual.success.all(), name
         assert np.all(actual.metrics["pinpoint"] == (name != "network_operator_guidance")), name
 
 
 def test_noisy_flights_hit_the_point_and_the_filter_knows_its_errors():
     guidances = ["analytic_exact_guidance", "network_operator_guidance"]
-    for name, actual in fly("compare", guidances, either(200, 100), parameters=["noisy.ssv"]).items():
+    for name, actual in fly("compare", guidances, either(200, 50), parameters=["noisy.ssv"]).items():
         assert actual.success.mean() >= 0.99
         if name == "analytic_exact_guidance":
             assert actual.metrics["pinpoint"].mean() >= 0.99
@@ -60,6 +60,7 @@ def test_noisy_flights_hit_the_point_and_the_filter_knows_its_errors():
             assert 0.8 < np.std(actual.metrics[f"{axis}_error_over_sigma"], ddof=1) < 1.3, (name, axis)
 
 
+@pytest.mark.slow
 def test_the_filter_is_consistent_at_five_epochs():
     batch = perilune.batch(SYSTEM, "consistency")
     actual = batch.trials["default"]
@@ -79,6 +80,7 @@ def test_the_filter_is_consistent_at_five_epochs():
     assert len(outside) <= stats.binom.ppf(0.99, 17, 0.05), outside
 
 
+@pytest.mark.slow
 def test_the_filterpy_filter_gives_the_same_flight():
     ours = perilune.simulate(SYSTEM)
     theirs = perilune.simulate(SYSTEM, use={"navigation": "kalman_navigation_filterpy"})
@@ -92,7 +94,7 @@ def test_the_filterpy_filter_gives_the_same_flight():
 def test_raw_navigation_costs_the_point_and_ideal_navigation_does_not():
     rates = {}
     for navigation in ("ideal_navigation", "raw_navigation", "kalman_navigation"):
-        actual = fly("compare", ["analytic_exact_guidance"], either(40, 15), use={"navigation": navigation})
+        actual = fly("compare", ["analytic_exact_guidance"], either(40, 8), use={"navigation": navigation})
         rates[navigation] = actual["analytic_exact_guidance"].metrics["pinpoint"].mean()
     assert rates["ideal_navigation"] == rates["kalman_navigation"] == 1.0
     assert rates["raw_navigation"] < 0.5
@@ -108,7 +110,7 @@ def test_propellant_obeys_the_rocket_equation_where_attitude_is_free_of_lag():
 
 def test_the_engine_s_lag_costs_its_impulse_unless_it_is_led():
     def left(lead):
-        actual = fly("lag", ["analytic_exact_guidance"], either(10, 4), set={"allocation.thrust_lead": lead})
+        actual = fly("lag", ["analytic_exact_guidance"], either(10, 2), set={"allocation.thrust_lead": lead})
         return actual["analytic_exact_guidance"].metrics["settled_velocity_error"]
 
     # what an engine of first order gives behind its cut-off: thrust acceleration times lag, here about 5.5 m/s2 0.1 s

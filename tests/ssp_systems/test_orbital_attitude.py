@@ -150,9 +150,10 @@ def test_noisy_flights():
         assert settled(flown[SEQUENCE, MODAL]).mean() == pytest.approx(323.0, abs=4.0)
 
 
+@pytest.mark.slow
 def test_a_turn_tells_a_gyro_s_bias_from_yaw():
     """Biases to 5 deg/h: with the turn all settle, without it most do not."""
-    options = {**options_of(FILTER, ARRIVAL), "trials": either(200, 40)}
+    options = {**options_of(FILTER, ARRIVAL), "trials": either(200, 20)}
     (turned,) = perilune.batch(SYSTEM, "bias", **options).trials.values()
     assert turned.success.all()
     assert upper(turned) <= 350.0

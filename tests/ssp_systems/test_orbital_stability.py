@@ -59,6 +59,7 @@ def test_the_limit_cycle_of_the_pulses(studied, name):
     assert cycle.simulated_period == pytest.approx(cycle.period, rel=0.25)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", either([0, 1, 2], [2]))
 def test_margins_of_the_derivative_fed_back(fmus, axis):
     """By linearisation and by a test signal, against the closed form: 2e-3 dB, 1e-2 deg, 1e-3 of the disk margin.

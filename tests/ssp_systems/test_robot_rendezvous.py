@@ -31,7 +31,7 @@ def seeds(fmus):
     return cache(lambda name: perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"], trials=SEEDS).trials)
 
 
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", either([*ASKED], ["best"]))
 def test_other_seeds_hold_place_and_attitude(seeds, name):
     hold, attitude, turn = ASKED[name]
     for trials in seeds(name).values():
@@ -43,7 +43,7 @@ def test_other_seeds_hold_place_and_attitude(seeds, name):
 
 
 def test_jets_wrong_by_five_percent_hold_within_two_centimetres():
-    for trials in perilune.batch(SYSTEM, "thruster_errors", trials=either(None, 2)).trials.values():
+    for trials in perilune.batch(SYSTEM, "thruster_errors", trials=either(None, 1)).trials.values():
         assert np.max(trials.metrics["hold_error"]) < 0.02
 
 
@@ -52,8 +52,9 @@ def test_least_propellant_spends_least(seeds):
     assert min(impulse, key=impulse.get) == "jet_allocation_least_propellant"
 
 
+@pytest.mark.slow
 def test_starts_beside_the_plan_come_back_to_it():
-    trials = perilune.batch(SYSTEM, "initial_errors", trials=either(10, 2)).trials["jet_allocation_quantised"]
+    trials = perilune.batch(SYSTEM, "initial_errors", trials=either(10, 1)).trials["jet_allocation_quantised"]
     assert np.max(trials.metrics["position_error_max"]) > 0.5
     assert np.max(trials.metrics["hold_error"]) < 0.01
 

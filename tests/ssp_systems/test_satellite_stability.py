@@ -54,6 +54,7 @@ def test_responses_by_both_routes(channels):
             assert error.max() < 2e-3
 
 
+@pytest.mark.slow  # test_margins has the same loop with the integral, at two points
 def test_without_integral_it_is_a_double_integrator_behind_a_hold(fmus):
     """L = (k + c s)/s^2 sampled: k T^2/2 (z + 1)/(z - 1)^2 + c T/(z - 1). The wheels are 3e-4 of the inertia.
 

@@ -74,6 +74,7 @@ def test_a_pendulum_beside_the_loop(exact_fmus, tmp_path):
     assert [mode.kind for mode in loop.modes if abs(mode.z) > 1.0] == ["neither"]
 
 
+@pytest.mark.slow
 def test_over_a_parameter_that_a_loop_does_not_see(exact_fmus, tmp_path):
     """A sweep of the pendulum outside it: stable at no rate, unstable at any."""
     exact = pendulum()

@@ -51,9 +51,7 @@ COMMANDS = {
     "export": (["export", "lunar_terminal_guidance", "--as-fmu"], "keeper.py", 1),
 }
 SHORT = [
-    ("stability", signal.SIGTERM),
     ("stability", signal.SIGINT),
-    ("batch", signal.SIGHUP),
     ("fused", signal.SIGKILL),
 ]
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.stability.loops.disk import disk_margins, joint_disk_margin
 from perilune.analysis.stability.loops.margins import robust
+from tests.support.lengths import either
 from tests.support.loops.sampled_loops import delay, held, nearest_to_circle, outside, random_loops, response_of
 
 S = control.tf("s")
@@ -58,7 +59,7 @@ def test_three_coupled_loops_equal_python_control() -> None:
 
 
 @given(random_loops())
-@settings(max_examples=10)
+@settings(max_examples=either(10, 5))
 def test_one_loop_equals_the_closed_form(system: control.StateSpace) -> None:
     assume(nearest_to_circle(system) > 1e-2)
     low, high, single = 1e-3 / system.dt, np.pi / system.dt, response_of(system)
@@ -69,7 +70,7 @@ def test_one_loop_equals_the_closed_form(system: control.StateSpace) -> None:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=15)
+@settings(max_examples=either(15, 5))
 def test_loops_without_coupling_have_the_least_of_their_margins(seed: int) -> None:
     random = np.random.default_rng(seed)
     values = random.normal(size=(4, 3)) + 1j * random.normal(size=(4, 3))

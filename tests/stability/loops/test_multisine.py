@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.signal import lfilter
 
 from perilune.analysis.stability.loops.multisine import fraction_unexcited, line_spectrum, multisine
+from tests.support.lengths import either
 
 
 @given(
@@ -17,7 +18,7 @@ from perilune.analysis.stability.loops.multisine import fraction_unexcited, line
     amplitude=st.floats(1e-6, 1e3),
     per_decade=st.one_of(st.none(), st.floats(3.0, 40.0)),
 )
-@settings(max_examples=25)
+@settings(max_examples=either(25, 8))
 def test_only_odd_lines_and_each_of_the_amplitude(
     half: int, seed: int, amplitude: float, per_decade: float | None
 ) -> None:
