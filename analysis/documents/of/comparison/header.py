@@ -57,9 +57,10 @@ def _difference_nodes(content: ComparisonContent) -> list[Node]:
     sentences = significant_differences(content.comparison, content.rate_groups, content.metric_groups)
     nodes: list[Node] = [_list_sentences(sentences.first, content.styles)] if sentences.first else []
     if sentences.others:
-        summary = f"The other pairs that differ significantly: {len(sentences.others)}"
+        summary = f"Pairs without the reference that differ significantly: {len(sentences.others)}"
         nodes.append(Fold(summary, [_list_sentences(sentences.others, content.styles)]))
-    equal = "" if nodes else f"No pair differs significantly in {', '.join(sentences.tested)}. "
+    pairs = "pair with the reference" if sentences.others else "pair"
+    equal = "" if sentences.first else f"No {pairs} differs significantly in {', '.join(sentences.tested)}. "
     note = (
         f"A {MINUS} B: success in points, metrics as the median of differences trial by trial, with 95 % intervals. "
         "Significant: at 5 % in all pairs and quantities together (Holm)."

@@ -147,8 +147,8 @@ def _unstudied_nodes(report: StabilityStudy) -> list[Node]:
 def _margin_nodes(report: StabilityStudy) -> list[Node]:
     nearest = Note(
         "The gain margin is the one nearest to 0 dB, upwards or downwards, the phase margin the one nearest to 0. "
-        "Samples are the loop's own. One loop is broken at a time, all other loops closed. Tightest: least reserve "
-        "relative to its limit."
+        "Delay margins in samples count the loop's sample period. One loop is opened at a time, all others closed. "
+        "Tightest: least reserve relative to its limit."
     )
     joint = Group(
         "Simultaneous (multi-loop) margins",
