@@ -36,7 +36,7 @@ def batch_command(plan: BatchPlan, output: Path | None = None) -> str:
 
 
 def batch_of_folder(folder: Path) -> str:
-    """Return the command that wrote a campaign's folder; empty without a manifest or its contents."""
+    """Return the command that wrote a campaign's folder; empty if there is no manifest or its contents."""
     try:
         plan = restore(folder, read_manifest(folder))
     except (InputError, OSError):

@@ -162,8 +162,8 @@ Cell = Inline | QuantityVector | Track | Bar | Digest | Lines | float | bool | P
 class Head(NamedTuple):
     """The heading of a column, or of the columns ``below`` it, with a ``note`` on a separate line.
 
-    Columns of numbers alone are aligned to the right, with ``numbers`` also columns that contain words. ``names`` keeps
-    names on one line; a column of ``sentences`` is not narrowed.
+    Columns of numbers are aligned to the right. ``column`` sets the layout: "numbers" aligns cells to the right even if
+    some contain words, "names" keeps them on one line, "sentences" is not narrowed.
     """
 
     text: str

@@ -15,7 +15,7 @@ SEPARATORS = ("  ", " *")  # of text, and of binary mode
 def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], list[str]]:
     """Return a problem, by name, for each missing or changed file, and the names of files added later.
 
-    Both are empty without SHA256SUMS. Raises InputError for a line that is not in the format of sha256sum.
+    Both are empty if there is no SHA256SUMS. Raises InputError for a line that is not in the format of sha256sum.
     """
     if SUMS not in files:
         return {}, []

@@ -1,4 +1,4 @@
-"""Evidence of a system to ship: its simulation, its campaigns and parameter sets, its studies."""
+"""Evidence shipped with a system: its simulation, its campaigns and parameter sets, its studies."""
 
 from __future__ import annotations
 

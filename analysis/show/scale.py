@@ -55,7 +55,7 @@ class ColumnScale:
 
 
 def make_scale(numbers: np.ndarray) -> ColumnScale | None:
-    """Return a scale that spans the finite numbers among (rows,), with all below its high end; None without any.
+    """Return a scale that spans the finite numbers among (rows,), with all below its high end; None if there are none.
 
     Only the greatest double may equal the high end.
     """

@@ -34,7 +34,7 @@ Replay = Callable[[Request, str, int], str]  # the command that studies a loop a
 
 @dataclass
 class PointResult:
-    """Result of the study of one point; ``cells`` are the relevant memory cells, None without a linear model."""
+    """Result of the study of one point; ``cells`` are the relevant memory cells, None if there is no linear model."""
 
     report: PointReport
     loops: list[LoopReport]

@@ -123,7 +123,7 @@ def _system(archive: SystemArchive) -> SystemFiles:
 
 
 def _interface(block: type[Block]) -> str | None:
-    """Return the interface of a block, its base class directly below Block; None without one."""
+    """Return the interface of a block, its base class directly below Block; None if there is none."""
     base = block.__mro__[block.__mro__.index(Block) - 1]
     return base.__name__ if base is not block else None
 

@@ -75,7 +75,7 @@ class WheelAllocation(Block, interface=True):
     )
     inverse_axes = State(zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the matrix of spin axes")
     null = State(
-        [0.0] * 4, unit="1", description="unit vector of motor torques without torque on the body; 0: no such torques"
+        [0.0] * 4, unit="1", description="unit vector of motor torques that give no torque on the body; 0: none"
     )
     wheel_torques = State(
         [0.0] * 4, unit="N.m", description="motor torques for the commanded torque, without null motion"

@@ -59,7 +59,7 @@ def elements_of(block_class: type[Block]) -> dict[str, Variable]:
 
 
 def read_check(block_class: type[Block]) -> Check | None:
-    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to its file; None without one.
+    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to its file; None if there is none.
 
     Raises CheckError, naming file and element, if one of the two is missing or does not fit the block.
     """

@@ -20,7 +20,7 @@ def unit_text(variable: Variable) -> str:
 
 
 def bounds_text(variable: Variable) -> str:
-    """Return the declared range as text; empty without bounds."""
+    """Return the declared range as text; empty if there are no bounds."""
     low, high = variable.minimum, variable.maximum
     if low is not None and high is not None:
         return f"{low:g} to {high:g}"

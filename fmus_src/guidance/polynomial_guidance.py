@@ -26,7 +26,7 @@ GLIDE_TOLERANCE = 1.0  # m, largest violation of the glide slope by a search wit
 class TimeChoice(Enumeration):
     """Objective of the time to go."""
 
-    PROPELLANT = member("least propellant within the thrust")
+    PROPELLANT = member("least propellant within the thrust limit")
     EFFORT = member("least effort")
 
 

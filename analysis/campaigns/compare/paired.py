@@ -38,7 +38,7 @@ class PairedValues:
 
     ``smaller``, ``equal`` and ``larger`` count trials by A's value relative to B's. ``median`` is that of A minus B,
     the lower of the two middle values for an even number; its ``interval`` is None with too few trials. ``p_value`` is
-    that of the sign test without ties. All three are None without trials.
+    that of the sign test without ties. All three are None if there are no trials.
     """
 
     count: int

@@ -166,7 +166,7 @@ class BatchPlan:
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
-        """Groups of trials by which results are summarised; none without [group]. Raises InputError."""
+        """Groups of trials by which results are summarised; none if there is no [group]. Raises InputError."""
         if self.campaign.group is None:
             return []
         parts = (part.columns[self.campaign.group] for part in self.draw_parts())

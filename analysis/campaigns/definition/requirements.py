@@ -20,7 +20,7 @@ class Requirement:
     """Requirement [requirement.NAME]: a ``share`` of all simulations satisfies ``expression``, with ``confidence``.
 
     ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one with a tolerance bound, ``bound``
-    ("upper" or "lower"), which the share satisfies with the confidence; None without one.
+    ("upper" or "lower"), which the share satisfies with the confidence; None if there is none.
     """
 
     name: str

@@ -29,7 +29,7 @@ InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays
 
 
 def input_hashes(columns: InputColumns) -> list[str]:
-    """Return a hash of each trial's inputs, of all their bits, independent of their order."""
+    """Return a hash of each trial's exact input values; the order of the inputs does not matter."""
     rows = {name: np.stack(values, axis=1).tolist() for name, values in sorted(columns.items())}
     trials = len(next(iter(rows.values())))
     hashes = []

@@ -71,7 +71,7 @@ class LoadedCampaign:
 
     @cached_property
     def stored(self) -> CampaignFolder | None:
-        """Reader of its folder, None without one."""
+        """Reader of its folder, None if there is none."""
         return None if self.folder is None else CampaignFolder(self.folder, self.provenance)
 
     def store(self) -> ShardStore:

@@ -78,7 +78,7 @@ class Flyer:
         return self._ready[variant]
 
     def _log_of(self, variant: str) -> Log | None:
-        """Return the log for a variant's FMUs, None without a log level."""
+        """Return the log for a variant's FMUs, None if there is no log level."""
         if self.plan.watch.log is None:
             return None
         self._logs[variant] = Log(self.plan.watch.log)

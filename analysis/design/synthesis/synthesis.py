@@ -88,7 +88,7 @@ def run_synthesis(
 
 
 def _checkpoint(output: Path | None, resume: bool) -> Path | None:
-    """Return the checkpoint's file, None without ``output``.
+    """Return the checkpoint's file, None if there is no ``output``.
 
     Raises InputError if a checkpoint would be overwritten, or if there is no folder for ``resume``.
     """

@@ -25,7 +25,7 @@ class PlannedPath:
 
     ``position`` (m) and ``velocity`` (m/s) have a row each, along and up; ``propellant`` is relative to the initial
     mass. Over each interval ``throttle`` is the fraction of the engine's largest thrust, and ``pitch`` (rad) the angle
-    of thrust from the first axis in its middle, nan without thrust.
+    of thrust from the first axis in its middle, nan if there is no thrust.
     """
 
     time: np.ndarray

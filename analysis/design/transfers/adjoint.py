@@ -59,13 +59,13 @@ class AdjointSolution:
 
     @property
     def singular_span(self) -> tuple[float, float]:
-        """Begin and end (s) of the arc; nan without one."""
+        """Begin and end (s) of the arc; nan if there is none."""
         time = self.time[self.singular_arc]
         return (float(time[0, 0]), float(time[-1, -1])) if time.size else (math.nan, math.nan)
 
     @property
     def tangent_residual(self) -> tuple[float, float]:
-        """Deviation of pitch from the tangent law (rad) on the arc: rms and largest; nan without an arc."""
+        """Deviation of pitch from the tangent law (rad) on the arc: rms and largest; nan if there is no arc."""
         difference = (self.pitch - self.tangent)[self.singular_arc]
         residual = np.abs(np.arctan2(np.sin(difference), np.cos(difference)))
         return (float(np.sqrt(np.mean(residual**2))), float(residual.max())) if residual.size else (math.nan, math.nan)

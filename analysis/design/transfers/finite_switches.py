@@ -52,7 +52,7 @@ class FiniteProfile:
 
 
 def find_finite_switches(near: Programme) -> FiniteProfile | None:
-    """Return the profile of least propellant near a simplified programme with two burns, None without one."""
+    """Return the profile of least propellant near a simplified programme with two burns, None if there is none."""
     vehicle, transfer, shape = near.vehicle, near.transfer, near.shape()
     if not (shape.d > 0.0 and shape.t4 > shape.t3):
         return None

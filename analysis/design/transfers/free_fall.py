@@ -78,7 +78,9 @@ def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | N
 def _fly(
     z: np.ndarray, begun: float, vehicle: Vehicle, transfer: Transfer
 ) -> tuple[FreeFallProgramme, np.ndarray] | None:
-    """Return the programme with t2, t5, w, tp and t7 - t5 (s), or None without a shape, and its errors at the end."""
+    """Return the programme with t2, t5, w, tp and t7 - t5 (s), or None if there is no shape, and its errors at the
+    end.
+    """
     t2, t5, width, burn, turn = (float(each) for each in z)
     kernel = kernel_vehicle(vehicle, transfer)
     off, fall = t5 + begun * turn, (1.0 - begun) * turn

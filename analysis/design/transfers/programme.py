@@ -119,7 +119,7 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
 
 
 def sweep_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Return durations (s) around the best programme's and the propellant fraction of each, nan without one."""
+    """Return durations (s) around the best programme's and the propellant fraction of each, nan if there is none."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
     programmes = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]

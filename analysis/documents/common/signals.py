@@ -71,7 +71,7 @@ class SignalGroup:
 
     @property
     def axes(self) -> str:
-        """The axes of the elements in words, empty without names."""
+        """The axes of the elements in words, empty if there are no names."""
         return ", ".join(self.labels) if self.is_named else ""
 
     @property

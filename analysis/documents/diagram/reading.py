@@ -195,7 +195,7 @@ def ranges(indices: Sequence[str]) -> str:
 
 
 def _change(connection: Connection, source: Node, target: Node, *, is_sum: bool) -> str:
-    """Describe the conversion of a value in a connection; empty without conversion."""
+    """Describe the conversion of a value in a connection; empty if there is no conversion."""
     units = ""
     if source.unit and target.unit and not source.unit.is_same(target.unit):
         units = f"{declared_unit(source.unit.name)} → {declared_unit(target.unit.name)}"

@@ -59,7 +59,7 @@ class Embedded:
         return policy(self._bundles.values(), requests=self._requests)
 
     def elements(self) -> Markup:
-        """Return the document and the scripts as elements for the end of a page; empty without scripts."""
+        """Return the document and the scripts as elements for the end of a page; empty if there are no scripts."""
         if not self._bundles:
             return Markup("")
         document = {**self._columns.document(), "figures": self._figures, **self._documents}

@@ -130,7 +130,7 @@ def _body(table: Table, kinds: Sequence[str]) -> list[BodyRow]:
 
 
 def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, FigurePanel]]]]:
-    """Return runs of consecutive figures of equal width: ``wide``, or a kind of grid."""
+    """Group consecutive figures of equal width; the key is "wide", "halves" or "" (narrow)."""
     return [(kind, [(figure, panel_of(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
 
 

@@ -59,7 +59,7 @@ class Ground:
 
 
 def ground_of(scene: SceneView) -> Ground | None:
-    """Return the ground of a view, or None without one."""
+    """Return the ground of a view, or None if there is none."""
     if scene.ground is None:
         return None
     origin = np.array(scene.origin)

@@ -175,7 +175,7 @@ class SceneView:
 
 
 def scene_view(scene: SceneFigure, result: FlightResult) -> SceneView | None:
-    """Return the scene of a simulation, or None without samples."""
+    """Return the scene of a simulation, or None if there are no samples."""
     if not result.time.size:
         return None
     poses = compute_poses(scene, result)
@@ -217,7 +217,7 @@ def find_origin(position: np.ndarray) -> np.ndarray:
 
 
 def ground_view(scene: SceneFigure, position: np.ndarray) -> GroundView | None:
-    """Return the ground of a scene below a path with these positions (m), [3, n], or None without one."""
+    """Return the ground of a scene below a path with these positions (m), [3, n], or None if there is none."""
     surface = scene.surface
     if surface is None:
         return None

@@ -33,7 +33,7 @@ class SlotChoice:
 
     @property
     def name(self) -> str:
-        """The suffix of C functions; empty without slots."""
+        """The suffix of C functions; empty if there are no slots."""
         return "".join(f"_{number}" for number in self.numbers)
 
 

@@ -175,7 +175,7 @@ class Parameters:
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
 
     def _view(self, words: np.ndarray, position: int) -> np.ndarray:
-        """Return a view of the one value of FMI 3.0 stored at a position."""
+        """Return a one-element view, in its own dtype, of the FMI 3.0 value at a position."""
         dtype, first = self._layout[position]
         return words.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 

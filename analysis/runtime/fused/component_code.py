@@ -61,7 +61,7 @@ class ComponentCode:
 
 
 def component_code(sources: Mapping[str, str], model: str, prefix: str, label: str) -> ComponentCode:
-    """Return the C of one of Perilune's native FMUs without the FMI functions; ``sources`` are by file name.
+    """Return the C code of one of Perilune's native FMUs without the FMI functions; ``sources`` are by file name.
 
     ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, if the C is from another version
     of Perilune.

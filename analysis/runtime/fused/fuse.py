@@ -44,10 +44,10 @@ def fuse(
 ) -> int:
     """Return the address of a function that executes the steps of ``program`` and records these slots.
 
-    It contains the C of the native FMUs among ``instances``; other FMUs are called through FMI. The library is cached
-    by its content. Compilation is cancelled once ``is_wanted`` returns False. Raises InputError if there is no
-    compiler, if it fails or changes results, if no library can be written, if the C of an FMU is from another build, or
-    if the steps repeat too late.
+    It contains the C code of the native FMUs among ``instances``; other FMUs are called through FMI. The library is
+    cached by its content. Compilation is cancelled once ``is_wanted`` returns False. Raises InputError if there is no
+    compiler, if it fails or changes results, if no library can be written, if the C code of an FMU is from another
+    build, or if the steps repeat too late.
     """
     components = _component_codes(instances)
     if not is_compilable(program):

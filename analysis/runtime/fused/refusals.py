@@ -13,7 +13,7 @@ INSTALL = "install cc, or pip install ziglang; or simulate it `native`"
 
 
 def has_code(fmu: Fmu) -> bool:
-    """Return True if the C of an FMU can be compiled into the steps."""
+    """Return True if the C code of an FMU can be compiled into the steps."""
     return fmu.is_own and fmu.is_native and fmu.version == 2
 
 

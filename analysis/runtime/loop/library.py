@@ -73,7 +73,7 @@ def built_file(build: Path, platform: str) -> Path:
 
 
 def sources() -> dict[str, bytes]:
-    """Return the C of the library by file name."""
+    """Return the C code of the library by file name."""
     from .write_elementary import write_elementary  # imports the translator
 
     written = (file for file in _files() if not file.name.endswith(".py"))

@@ -118,7 +118,7 @@ class SystemProcess:
         self.connection.send(messages.StoreVerdicts(dict(verdicts)))
 
     def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
-        """Send a scenario to simulate after that of recorder number ``after``; return the number of its recorder.
+        """Send the next scenario; return the number of its recorder, the one that follows ``after``.
 
         Values and faults are sent only if they differ from those sent before.
         """
@@ -150,7 +150,7 @@ class SystemProcess:
         return number
 
     def describe_end(self, error: ChildEndedError) -> str:
-        """Return, as text, component, time and reason of the child's end."""
+        """Describe which component was running, and when and why the child ended."""
         return f"{self.recorder.describe_progress(self.prepared)}: {error.how}"
 
     @contextmanager

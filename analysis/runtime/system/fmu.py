@@ -108,7 +108,7 @@ class Fmu:
         return replace(loaded, variables=variables, sizes=dict(sizes), origin=loaded)
 
     def read_sources(self) -> dict[str, str]:
-        """Return the C of an FMU built by Perilune, by file name. Raises InputError if the FMU is damaged."""
+        """Return the C code of an FMU built by Perilune, by file name. Raises InputError if the FMU is damaged."""
         archive = open_zip(self.content, self.label)
         files = [name for name in archive.namelist() if name.startswith(SOURCES) and name.endswith((".c", ".h"))]
         return {name.removeprefix(SOURCES): read_entry(archive, name, self.label).decode() for name in files}

@@ -76,7 +76,7 @@ def _lowest(response: Response, low: float, high: float) -> float:
 
 
 def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
-    """Return amplitude and period (s) of the return signal at the end of a simulation, None without oscillation.
+    """Return amplitude and period (s) of the return signal at the end of a simulation, None if there is no oscillation.
 
     ``integrated``: of its integral over time, without the ramp that a constant disturbance causes.
     """

@@ -35,10 +35,10 @@ class Level:
     """One of the nested events: margins not below ``threshold`` (None for the first, which contains all points).
 
     ``probability`` is that of the next event in it, None if its chains are not ``trusted``. ``draw_acceptance`` and
-    ``noise_acceptance`` are the acceptance rates of the two moves, None without such moves; ``least_acceptance`` is the
-    lowest of a noise source, with the index ``source``; ``spread`` is that of the draw moves. ``correlation`` is gamma
-    of Au and Beck (2001, equation 29), ``deviation`` the coefficient of variation of the probability (equation 28),
-    which assumes independent chains.
+    ``noise_acceptance`` are the acceptance rates of the two moves, None if there are no such moves;
+    ``least_acceptance`` is the lowest of a noise source, with the index ``source``; ``spread`` is that of the draw
+    moves. ``correlation`` is gamma of Au and Beck (2001, equation 29), ``deviation`` the coefficient of variation of
+    the probability (equation 28), which assumes independent chains.
     """
 
     threshold: float | None
@@ -54,7 +54,7 @@ class Level:
 
     @property
     def renewal_rate(self) -> float | None:
-        """Acceptance rate of the least renewed source, of all sources if that is unknown; None without noise."""
+        """Acceptance rate of the least renewed source, of all sources if that is unknown; None if there is no noise."""
         return self.noise_acceptance if self.least_acceptance is None else self.least_acceptance
 
     @property

@@ -96,7 +96,7 @@ class WorstOutcome(StudyResult):
         return float(self.flown.values[searched][same].max())
 
     def as_json(self, value: float) -> float | str | None:
-        """Return a value as JSON: null if it failed, a word for a margin without a number."""
+        """Return a value as JSON: null if the simulation failed, "unstable" or "unlimited" for such margins."""
         return self.badness.fact(self.badness.size(value))
 
     @property
@@ -110,7 +110,7 @@ class WorstOutcome(StudyResult):
         return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
 
     def values(self) -> dict[str, float]:
-        """Return the numbers that requirements may refer to; those of fresh noise are nan without it."""
+        """Return the numbers that requirements may refer to; those of fresh noise are nan if it is not used."""
         values = {"worst": self.value, "random": float(self.flown.values[self.random])}
         values |= {
             "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,

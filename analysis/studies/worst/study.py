@@ -178,7 +178,7 @@ class _Search:
 
 
 class _Points:
-    """Points simulated with common realisations of noise; ``over`` is None without random noise.
+    """Points simulated with common realisations of noise; ``over`` is None if there is no random noise.
 
     ``effect`` tells whether the noise changed a value of the random trials; if not, points are simulated only once.
     """

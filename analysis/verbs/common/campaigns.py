@@ -1,4 +1,4 @@
-"""Plan of a campaign and requirements on it from the options of a verb, and commands that repeat its trials."""
+"""Campaign plan and requirements from a verb's options, and the commands that repeat its trials."""
 
 from __future__ import annotations
 

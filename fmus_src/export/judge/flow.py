@@ -53,7 +53,10 @@ class FlowCheck:
         return assigned
 
     def loop(self, node: ast.For, assigned: frozenset[str]) -> frozenset[str] | None:
-        """Return the names definitely assigned by a loop over literal bounds, without a break."""
+        """Return the names definitely assigned after a loop.
+
+        Those of its body count if it runs at least once and has no break or continue.
+        """
         self.reads(node.iter, assigned)
         inside = assigned | {node.target.id} if isinstance(node.target, ast.Name) else assigned
         after = self.block(node.body, inside)

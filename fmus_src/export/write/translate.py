@@ -64,7 +64,7 @@ def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
 
 
 def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
-    """Return the C of the functions that a block calls, without the block, and their C names by Python name.
+    """Return the C code of the functions that a block calls, without the block, and their C names by Python name.
 
     The functions are prefixed with the name of their Python file. Raises `SubsetError` like `translate`.
     """

@@ -23,7 +23,7 @@ WHEEL_AXES = Port(
     unit="1",
     frame="body",
     columns=3,
-    description="spin axes of the wheels, one per row, of any length",
+    description="spin axes of the wheels in body axes, one per row, of any length",
 )
 WHEEL_INERTIA = Port(
     0.03, unit="kg.m2", minimum=1e-9, description="moment of inertia of each wheel about its spin axis"

@@ -45,17 +45,13 @@ class JetStrength(Record):
         Vector3,
         unit="1",
         frame="body",
-        description=(
-            "force along each axis per 1 N of all eight jets with sign rows X, Y and Z, divided by their number"
-        ),
+        description=("force along each axis per N of the jets' thrusts, summed with the signs of that axis"),
     )
     torque = Field(
         Vector3,
         unit="m",
         frame="body",
-        description=(
-            "torque about each axis per 1 N of all eight jets with sign rows YZ, ZX and XY, divided by their number"
-        ),
+        description=("torque about each axis per N of the jets' thrusts, summed with the signs of that axis"),
     )
 
 

@@ -33,15 +33,15 @@ class Transfer(Record):
         Vector3,
         unit="m",
         frozen=True,
-        description="coefficient c0 of the transfer polynomial: start position relative to the landing site",
+        description="constant term of the position polynomial: start position relative to the landing site",
     )
-    c1 = Field(Vector3, unit="m", frozen=True, description="coefficient c1 of the transfer polynomial")
-    c2 = Field(Vector3, unit="m", frozen=True, description="coefficient c2 of the transfer polynomial")
-    c3 = Field(Vector3, unit="m", frozen=True, description="coefficient c3 of the transfer polynomial")
-    c4 = Field(Vector3, unit="m", frozen=True, description="coefficient c4 of the transfer polynomial")
-    c5 = Field(Vector3, unit="m", frozen=True, description="coefficient c5 of the transfer polynomial")
-    c6 = Field(Vector3, unit="m", frozen=True, description="coefficient c6 of the transfer polynomial")
-    c7 = Field(Vector3, unit="m", frozen=True, description="coefficient c7 of the transfer polynomial")
+    c1 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^1 of the position, s = 0 to 1")
+    c2 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^2 of the position, s = 0 to 1")
+    c3 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^3 of the position, s = 0 to 1")
+    c4 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^4 of the position, s = 0 to 1")
+    c5 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^5 of the position, s = 0 to 1")
+    c6 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^6 of the position, s = 0 to 1")
+    c7 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^7 of the position, s = 0 to 1")
 
 
 class TransferLimits(Record):

@@ -21,7 +21,7 @@ LARGEST = "1 TB"  # size above which dask warns of a large message: the campaign
 
 @contextmanager
 def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
-    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None without one.
+    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None if there is none.
 
     ``workers`` and ``engine`` configure this machine, and are rejected with an address. Raises InputError if
     distributed is not installed, if the scheduler does not answer or has no workers, or if a worker has another version

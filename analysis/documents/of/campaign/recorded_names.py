@@ -54,7 +54,7 @@ def unit_of(provenance: CampaignProvenance, name: str) -> str | None:
 
 
 def axis_of(provenance: CampaignProvenance, name: str) -> str:
-    """Return the name of the axis of a recorded element; empty without a name."""
+    """Return the name of the axis of a recorded element; empty if there is no name."""
     return provenance["signals"].get(name, {}).get("axis", "")
 
 

@@ -25,7 +25,9 @@ Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
 
 
 class JudgedMetric(NamedTuple):
-    """A metric of success or of a requirement, and the limits that they impose on it alone; None without limits."""
+    """A metric of success or of a requirement, and the limits that they impose on it alone; None if there are no
+    limits.
+    """
 
     metric: Metric
     limits: MetricLimits | None

@@ -147,7 +147,7 @@ def points(difference: float) -> DisplayedNumber:
 
 
 def p_value(probability: float | None) -> DisplayedNumber | None:
-    """Return the p-value of a test as a cell; None without one."""
+    """Return the p-value of a test as a cell; None if there is none."""
     if probability is None:
         return None
     return DisplayedNumber(f"{probability:.4f}" if probability >= LEAST_P else f"< {LEAST_P:.4f}", probability)

@@ -227,7 +227,7 @@ def _decade(residual: float) -> Quantity:
 
 
 def _comparisons(study: HoverStudy) -> Table:
-    """Return programme and turn in free fall over distance; none without a programme of this kind."""
+    """Return programme and turn in free fall over distance; none if there is no programme of this kind."""
     mass = study.vehicle.mass
     rows: list[list[Cell]] = []
     for each in study.comparisons:

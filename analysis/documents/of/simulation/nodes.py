@@ -28,7 +28,7 @@ def simulation_nodes(simulation: FlightResult, figures: Sequence[FigureDeclarati
 
 
 def trajectory_nodes(simulation: FlightResult) -> list[Node]:
-    """Return the views of trajectories with their caption; none without a position."""
+    """Return the views of trajectories with their caption; none if there is no position."""
     views = trajectory_figures(simulation)
     if not views:
         return []

@@ -32,7 +32,7 @@ FAR = 0.35  # rad along the ground, beyond which the ground track replaces the p
 
 
 def trajectory_figures(result: FlightResult) -> list[Figure]:
-    """Return the views for a page; none without a position."""
+    """Return the views for a page; none if there is no position."""
     components = ", ".join(group.component for group in position_groups(result))
     figures = []
     for view in _views(result):
@@ -45,7 +45,7 @@ def trajectory_figures(result: FlightResult) -> list[Figure]:
 
 
 def trajectory_plot(result: FlightResult) -> Drawing | None:
-    """Return all views in one figure, below each other; None without a position."""
+    """Return all views in one figure, below each other; None if there is no position."""
     views = _views(result)
     if not views:
         return None
@@ -82,7 +82,7 @@ def trajectory_reading(result: FlightResult) -> str:
 
 
 def _views(result: FlightResult) -> list[View]:
-    """Return the horizontal and the vertical view; none without a position.
+    """Return the horizontal and the vertical view; none if there is no position.
 
     Over a round body the vertical view is altitude over downrange; otherwise both are elements of the position.
     """
@@ -104,7 +104,7 @@ def _views(result: FlightResult) -> list[View]:
 
 
 def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: FlightResult) -> float | None:
-    """Return the radius (m) of the body from the first component with position and altitude; None without one."""
+    """Return the radius (m) of the body from the first component with position and altitude; None if there is none."""
     for group, path in zip(groups, paths, strict=True):
         altitude = f"{group.component}.altitude"
         if result.units.get(altitude) == "m" and (radius := radius_of(path, result[altitude])) is not None:

@@ -39,7 +39,8 @@ class MarginHistory:
     """Loops with equal margins over time; each loop has a report per time (s), ascending.
 
     For each quantity, ``upper`` are the nearest margins for increasing gain or lag, and ``lower`` (negative) those for
-    decreasing gain or lead, NaN without one; ``sizes`` are those of the nearer margin, or `UNSTABLE` and `UNLIMITED`.
+    decreasing gain or lead, NaN if there is none; ``sizes`` are those of the nearer margin, or `UNSTABLE` and
+    `UNLIMITED`.
     """
 
     loops: tuple[tuple[LoopReport, ...], ...]
@@ -52,7 +53,7 @@ class MarginHistory:
 def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
     """Return the nearest margin for increasing gain or lag, and that for decreasing gain or lead.
 
-    Both are in the quantity's unit, NaN without one.
+    Both are in the quantity's unit, NaN if there is none.
     """
     if loop.margins.unstable:
         return math.nan, math.nan

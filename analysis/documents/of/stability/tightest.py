@@ -17,7 +17,8 @@ from .words import crossing_text, limit, link, size
 
 
 def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:
-    """Return the margin requirement with the least relative reserve, the first of equal ones; None without limits.
+    """Return the margin requirement with the least relative reserve, the first of equal ones; None if there are no
+    limits.
 
     Instability counts as less reserve than any margin, that of the loop as less than that of its trials.
     """
@@ -37,7 +38,9 @@ def with_mark(report: StabilityStudy, loop: LoopReport, name: Inline) -> Cell:
 
 
 def tightest_nodes(report: StabilityStudy) -> list[Text]:
-    """Return a statement of the tightest margin with its limit, or that no margin has a limit; none without loops."""
+    """Return a statement of the tightest margin with its limit, or that no margin has a limit; none if there are no
+    loops.
+    """
     if not report.loops:
         return []
     nearest = tightest(report)

@@ -17,9 +17,9 @@ CUT = 0.02  # fraction of simulations, farthest from the worst, that may be outs
 class ObjectiveValues(NamedTuple):
     """The objective of all points of a search in order, as displayed.
 
-    ``values`` (points,) are NaN without one; ``failed`` marks points that did not complete or are unstable. ``rising``
-    is True if larger values are worse, False for a margin. ``worst`` and ``random`` are the indices of the worst point
-    and of the worst random trial.
+    ``values`` (points,) are NaN if there is none; ``failed`` marks points that did not complete or are unstable.
+    ``rising`` is True if larger values are worse, False for a margin. ``worst`` and ``random`` are the indices of the
+    worst point and of the worst random trial.
     """
 
     label: str

@@ -66,7 +66,7 @@ class Fmi2Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs. The rows from ``begun`` on have written their values to the slots."""
+        """Set all inputs; the instructions from index ``begun`` fill the slots, and direct writes may replace them."""
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:

@@ -61,7 +61,7 @@ class VariantPaths:
 
 
 def collect_paths(contender: Contender, flights: Sequence[ComparedFlight]) -> VariantPaths | None:
-    """Return the paths of a variant's simulations, extended to recorded final values; None without paths."""
+    """Return the paths of a variant's simulations, extended to recorded final values; None if there are no paths."""
     document = contender.stored.document
     names = names_of_record(document)
     position = find_vector(document, names, "position", "m")

@@ -94,7 +94,7 @@ def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
 def _findings(
     error: ErrorFigure, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
 ) -> list[Rich]:
-    """Return the fractions of samples with a ``changed`` estimate within 1 and 3 sigma; none without sigma."""
+    """Return the fractions of samples with a ``changed`` estimate within 1 and 3 sigma; none if there is no sigma."""
     start = time[0] if error.after is None else error.after
     counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
     repeats = bool(np.any(counted & ~changed))
