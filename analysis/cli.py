@@ -36,21 +36,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status
 
 
-def _carry_out(given: Sequence[str]) -> int:
-    for former in (" ".join(given[:2]), *given[:1]):
+def _carry_out(arguments: Sequence[str]) -> int:
+    for former in (" ".join(arguments[:2]), *arguments[:1]):
         if former in FORMER:
             print(f"perilune: {former}: {FORMER[former]}", file=sys.stderr)
             return ExitStatus.REFUSED
-    parser = parser_of(given)
+    parser = parser_of(arguments)
     if COMPLETES in os.environ:
         importlib.import_module("argcomplete").autocomplete(parser)
-    parsed, unknown = parser.parse_known_args(given)
+    parsed, unknown = parser.parse_known_args(arguments)
     verb = VERBS[f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb]
     if unknown:
         Parser(prog=f"perilune {verb.name}").error(f"unrecognized arguments: {' '.join(unknown)}")
     flags = flags_of(verb)
     try:
-        _check_names(verb, given)
+        _check_names(verb, arguments)
         return carry_out(verb, parsed)
     except InputError as error:
         for line in error.lines(flags):
@@ -71,9 +71,9 @@ def _carry_out(given: Sequence[str]) -> int:
         return ExitStatus.REFUSED
 
 
-def _check_names(verb: Verb, given: Sequence[str]) -> None:
+def _check_names(verb: Verb, arguments: Sequence[str]) -> None:
     """Reject arguments and a working folder that libraries cannot open, before any file is read. Raises InputError."""
-    for text in given:
+    for text in arguments:
         check_encoding(verb.name, text)
     try:
         here = os.getcwd()
@@ -111,7 +111,7 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     return result.output_result(verb, outcome, files)
 
 
-def parser_of(given: Sequence[str]) -> Parser:
+def parser_of(arguments: Sequence[str]) -> Parser:
     """Return the parser of all verbs.
 
     Only the options of the verb named on the command line are read, which keeps completion fast.
@@ -119,7 +119,7 @@ def parser_of(given: Sequence[str]) -> Parser:
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit if known")
-    named = [*given, *os.environ.get(COMPLETING, "").split()]
+    named = [*arguments, *os.environ.get(COMPLETING, "").split()]
     is_complete = HELP_ALL in named or COMPLETING in os.environ
     seconds = {}
     verbs = parser.add_subparsers(

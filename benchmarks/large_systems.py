@@ -78,7 +78,7 @@ def _print_steps(folder: Path) -> None:
         for flavour in ("native", "fused"):
             prepared = prepare_system(system, SystemOptions(step=0.1, stop_time=0.1 * ROUNDS * STEPS, flavour=flavour))
             begin = time.perf_counter()
-            with Simulation(prepared, wanted=()) as simulation:
+            with Simulation(prepared, requested=()) as simulation:
                 compiled = time.perf_counter() - begin
                 simulation.advance(-1, 0)
                 row.append(1e6 * min(_seconds(simulation, first) for first in range(0, ROUNDS * STEPS, STEPS)) / STEPS)
@@ -123,5 +123,5 @@ def _time(verb: str, path: Path) -> float:
 
 
 if __name__ == "__main__":
-    given = [int(text) for text in sys.argv[1:]]
-    main(given or list(SIZES), given or list(FOREIGN_SIZES))
+    chosen_sizes = [int(text) for text in sys.argv[1:]]
+    main(chosen_sizes or list(SIZES), chosen_sizes or list(FOREIGN_SIZES))

@@ -67,7 +67,7 @@ def _with_system(folder: Path, name: str) -> Path:
 
 def timed(prepared: PreparedSystem, steps: int) -> Callable[[], float]:
     """Return a function that simulates ``steps`` steps and returns the time per step (us)."""
-    simulation = Simulation(prepared, wanted=())
+    simulation = Simulation(prepared, requested=())
 
     def fly() -> float:
         simulation.advance(-1, 0, every=steps)

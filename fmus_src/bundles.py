@@ -67,12 +67,12 @@ class Connectors(Generic[B]):
     def __get__(self, instance: Any, owner: type | None = None) -> B:
         return self if instance is None else self.view(instance)  # type: ignore[return-value]
 
-    def __set__(self, instance: Any, given: B) -> None:
-        if getattr(given, "bundle", None) is not self.bundle:
+    def __set__(self, instance: Any, view: B) -> None:
+        if getattr(view, "bundle", None) is not self.bundle:
             members = ", ".join(self.names.values())
             raise TypeError(f"{instance.fmu_name}: give a {self.bundle.__name__} of a block, or assign {members}")
         for member, name in self.names.items():
-            setattr(instance, name, getattr(given, member))
+            setattr(instance, name, getattr(view, member))
 
 
 class Inputs(Connectors[B]):
@@ -110,7 +110,7 @@ def _make_view(bundle: type[Bundle], names: dict[str, str]) -> type[_View]:
 
 
 def _make_property(name: str) -> property:
-    def assign(view: _View, given: Any) -> None:
-        setattr(view._block, name, given)
+    def assign(view: _View, value: Any) -> None:
+        setattr(view._block, name, value)
 
     return property(attrgetter(f"_block.{name}"), assign)

@@ -125,8 +125,8 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
         for node in network.nodes.values()
         if node.component == name
     ]
-    given = [variable for component, variable in settings.variables if component == name]
-    demanded += [(key, fmu.variables[key].causality, fmu.variables[key].type) for key in given]
+    assigned = [variable for component, variable in settings.variables if component == name]
+    demanded += [(key, fmu.variables[key].causality, fmu.variables[key].type) for key in assigned]
     return {
         "name": name,
         "fmu": fmu.name,

@@ -37,8 +37,8 @@ def _all_connectors() -> Mapping[str, set[Demand]]:
 
 def find_fitting_fmus(demanded: Iterable[Demand]) -> list[str]:
     """Return the FMUs of this repository and of the working folder that have all required connectors, by name."""
-    wanted = set(demanded)
-    return [name for name, has in _all_connectors().items() if wanted <= has]
+    required = set(demanded)
+    return [name for name, has in _all_connectors().items() if required <= has]
 
 
 def slots() -> dict[str, type[Block]]:

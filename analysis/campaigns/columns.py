@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import pyarrow
 
 from .definition.campaign import Metric
-from .draws.given import stream_component
+from .draws.supplied import stream_component
 
 
 class Column(NamedTuple):

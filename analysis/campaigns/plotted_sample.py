@@ -36,8 +36,8 @@ class PlottedSample:
         """Note on omitted trials, "" if none are."""
         if self.trials == len(self.first):
             return ""
-        seen = int(np.count_nonzero(~self.dots.success))
-        failures = "all failures" if seen == self.failures else f"{seen} of {self.failures} failures"
+        plotted = int(np.count_nonzero(~self.dots.success))
+        failures = "all failures" if plotted == self.failures else f"{plotted} of {self.failures} failures"
         return f"the first {FIRST} of {self.trials} trials; scatter plots also show {failures}"
 
 

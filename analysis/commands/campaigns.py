@@ -68,7 +68,7 @@ def _of_variant(plan: BatchPlan, variant: Variant) -> dict[str, object]:
 def _options(plan: BatchPlan, configuration: str | None, compare: Mapping[str, Sequence[str]]) -> dict[str, object]:
     """Return the options of a plan by name, except arrays of inputs, which have no textual form."""
     campaign, settings = plan.campaign, plan.options.by_name
-    trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}
+    trials = {"trials": campaign.trials} if plan.supplied is None else {"draws": plan.supplied.file}
     file = plan.series.file if plan.series is not None and plan.series.lines else None
     return {
         **trials,

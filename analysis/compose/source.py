@@ -15,7 +15,7 @@ from ...fmus_src.units import BASE_UNITS
 from ..campaigns.definition.source import key_lines, parse_toml
 from ..campaigns.definition.table import TomlTable, integer, names, number, text
 from ..runtime.ssp.conversions import Unit
-from ..runtime.ssp.given_values import ParameterValue
+from ..runtime.ssp.parameter_values import ParameterValue
 
 ANNOTATIONS_FILE = "annotations.xml"
 KINDS = ("input", "output", "parameter")  # of connectors of the system

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from ...common.errors import InputError, SeveralProblemsError, suggestion
 from ...fmus_src.evidence.parameter_set import write_parameter_set
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
-from ..runtime.ssp.given_values import ParameterValue
 from ..runtime.ssp.names import elements, split_name
 from ..runtime.ssp.parameter_sets import Assignment
+from ..runtime.ssp.parameter_values import ParameterValue
 from ..runtime.system.fmu import Fmu
 from .source import SetValue, SystemSource
 from .wiring import INDEX, Wiring, collapse

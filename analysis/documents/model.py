@@ -249,7 +249,7 @@ Node = (
 
 @dataclass(frozen=True)
 class Section:
-    """Nodes below a ``heading``, which may be empty; ``given`` is the condition of all its numbers, if any.
+    """Nodes below a ``heading``, which may be empty; ``condition`` is the condition of all its numbers, if any.
 
     ``is_folded`` folds it on a page. ``style`` applies to a page: only on screens, or on paper unbroken or on a
     separate sheet.
@@ -257,7 +257,7 @@ class Section:
 
     heading: str
     nodes: Sequence[Node]
-    given: str = ""
+    condition: str = ""
     is_folded: bool = False
     style: Literal["", "screen", "whole", "whole sheet"] = ""
 

@@ -64,11 +64,11 @@ def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str)
     experiments: list[PlannedExperiment] = []
     notes: list[str] = []
     for file, element in _elements(manifest, files, label):
-        made = _read(element, file, label)
-        if isinstance(made, str):
-            notes.append(made)
+        experiment = _read(element, file, label)
+        if isinstance(experiment, str):
+            notes.append(experiment)
         else:
-            experiments.append(made)
+            experiments.append(experiment)
     used = {each.references for each in experiments} | {each.stimuli for each in experiments}
     for related in manifest.files:
         if related.role == "result" and related.name not in used:

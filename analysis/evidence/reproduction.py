@@ -92,19 +92,19 @@ def reproduce(
     reference = _table(files, experiment.references, archive.label)
     prepared = _prepare(archive, files, experiment, reference, options, loaded)
     samples = int(np.unique(reference.time).size)
-    made = Reproduction(experiment.name, experiment.references, samples, (), not_compared=reference.texts)
+    reproduction = Reproduction(experiment.name, experiment.references, samples, (), not_compared=reference.texts)
     if experiment.start is not None and experiment.start != prepared.start:
         problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
-        return replace(made, problems=(f"{problem}: not simulated",))
+        return replace(reproduction, problems=(f"{problem}: not simulated",))
     first, last = reference.time[[0, -1]]
     if first < prepared.start - time_margin(first):
         problem = f"its reference starts at {first:g} s, the simulation at {prepared.start:g} s: not simulated"
-        return replace(made, problems=(problem,))
+        return replace(reproduction, problems=(problem,))
     variables, problems = _variables(prepared, reference)
     if not variables:
-        return replace(made, problems=tuple(problems) or ("its reference has no signal to compare",))
+        return replace(reproduction, problems=tuple(problems) or ("its reference has no signal to compare",))
     more = [name for name in variables.values() if name not in prepared.network.nodes]
-    with chdir(Path.cwd()), open_simulation(prepared, more=more) as simulation:
+    with chdir(Path.cwd()), open_simulation(prepared, additional=more) as simulation:
         flight = fly(simulation, timeout)
     if not flight.complete:
         problems.append(f"{flight.ending}: {flight.message}")
@@ -117,8 +117,8 @@ def reproduce(
         checks, interpolated = compare(
             reference.time, references, flight.time, signals, experiment.tolerances, fraction
         )
-        made = replace(made, signals=tuple(checks), interpolated=interpolated)
-    return replace(made, problems=tuple(problems))
+        reproduction = replace(reproduction, signals=tuple(checks), interpolated=interpolated)
+    return replace(reproduction, problems=tuple(problems))
 
 
 def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:

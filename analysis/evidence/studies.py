@@ -72,14 +72,14 @@ def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | 
     plan = read_plan(system, name, options, watch=Watch(timeout))
     with chdir(Path.cwd()):  # an FMU may change the folder
         campaign = open_campaign(plan, None)
-        made = CampaignResult.finish(campaign, fly_campaign(campaign, campaign.missing())).content()
-    return {"campaign": name, **{key: made[key] for key in ("trials", "seed", "success", "metrics", "variants")}}
+        content = CampaignResult.finish(campaign, fly_campaign(campaign, campaign.missing())).content()
+    return {"campaign": name, **{key: content[key] for key in ("trials", "seed", "success", "metrics", "variants")}}
 
 
 def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
-    made: dict[str, Any] = document(study(read_request(system, options), study_command))
-    loops = [{key: loop[key] for key in KEYS if key in loop} for loop in made["loops"]]
-    return {"verdict": made["verdict"], "limits": made["limits"], "loops": loops}
+    content: dict[str, Any] = document(study(read_request(system, options), study_command))
+    loops = [{key: loop[key] for key in KEYS if key in loop} for loop in content["loops"]]
+    return {"verdict": content["verdict"], "limits": content["limits"], "loops": loops}
 
 
 def _iterate_scalars(entry: object, path: str) -> Iterator[tuple[str, object]]:

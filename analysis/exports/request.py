@@ -41,8 +41,8 @@ class ExportRequest:
 
     def check_one_fmu(self) -> None:
         """Reject options that do not apply to a system as one FMU. Raises InputError."""
-        for option, given in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
-            if given:
+        for option, is_chosen in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
+            if is_chosen:
                 value = str(getattr(self, option))
                 problem = "a system as one FMU needs native FMUs, and is an FMU of FMI 2.0"
                 raise InputError(f"`{option}`", value, problem, "leave it out, or leave out `as_fmu`")

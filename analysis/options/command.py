@@ -16,8 +16,8 @@ def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str
     """Return the command line that calls a verb with these arguments and options, without default values."""
     words = ["perilune", *verb.name.split()]
     for argument in verb.arguments:
-        given = arguments.get(argument.name)
-        texts = [] if given is None else [_argument_text(each) for each in (given if argument.many else [given])]
+        passed = arguments.get(argument.name)
+        texts = [] if passed is None else [_argument_text(each) for each in (passed if argument.many else [passed])]
         words += [f"--{argument.name}", *texts] if argument.is_option and texts else texts
     declared = {**options_of(verb.options), **options_of(verb.files)}
     for name, value in options.items():

@@ -77,9 +77,9 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
         raise InputError(option, text, problem, f"write {FORM}, times in s") from error
 
 
-def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
+def faults_of(faults: Iterable[Fault | str]) -> list[Fault]:
     """Return faults, converting texts. Raises InputError."""
-    return [parse_fault(item) if isinstance(item, str) else item for item in given]
+    return [parse_fault(item) if isinstance(item, str) else item for item in faults]
 
 
 def _value(text: str) -> float | bool:

@@ -103,10 +103,10 @@ def read_parsed(verb: Verb, parsed: argparse.Namespace) -> tuple[dict[str, Any],
     """
     arguments = {}
     for argument in verb.arguments:
-        given = getattr(parsed, argument.name)
-        if given is not None:
+        texts = getattr(parsed, argument.name)
+        if texts is not None:
             arguments[argument.name] = (
-                [argument.read(text) for text in given] if argument.many else argument.read(given)
+                [argument.read(text) for text in texts] if argument.many else argument.read(texts)
             )
     return arguments, _read_group(verb.options, parsed), _read_group(verb.files, parsed)
 

@@ -26,12 +26,12 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
 
     def decorate(function: Function) -> Function:
         @functools.wraps(function)
-        def call(*arguments: object, **given: object) -> object:
-            named = {name: given.pop(name) for name in list(given) if name in positional}
-            for keyword in given:
+        def call(*arguments: object, **passed: object) -> object:
+            named = {name: passed.pop(name) for name in list(passed) if name in positional}
+            for keyword in passed:
                 if keyword not in options:
                     raise TypeError(f"{function.__name__}() has no option {keyword!r}; {suggestion(keyword, options)}")
-            checked = {key: check_value(options[key], value) for key, value in given.items()}
+            checked = {key: check_value(options[key], value) for key, value in passed.items()}
             return function(*arguments, **named, **defaults_of(declared.options) | checked)
 
         direct = [each for each in inspect.signature(function).parameters.values() if each.kind is not each.VAR_KEYWORD]

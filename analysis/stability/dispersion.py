@@ -85,13 +85,13 @@ def _dispersion(
     fraction = MarginRequirement(
         Scope.DISPERSED, MarginQuantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note
     )
-    wanted = {
+    required = {
         MarginQuantity.GAIN: limits.dispersed_gain_margin_db,
         MarginQuantity.PHASE: limits.dispersed_phase_margin_deg,
     }
     minimum = [
         MarginRequirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
-        for quantity, limit in wanted.items()
+        for quantity, limit in required.items()
     ]
     return Dispersion(
         campaign=plan.campaign.file,

@@ -86,14 +86,14 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
             readers.setdefault(start, set()).add(link.target.component)
     looped = set()
     for component in readers:
-        seen: set[str] = set()
+        visited: set[str] = set()
         queue = list(readers[component])
         while queue:
             current = queue.pop()
-            if current not in seen:
-                seen.add(current)
+            if current not in visited:
+                visited.add(current)
                 queue += readers.get(current, ())
-        if component in seen:
+        if component in visited:
             looped.add(component)
     return looped
 

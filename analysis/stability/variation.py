@@ -73,7 +73,7 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
     return None
 
 
-def _crossings(at: At, low: float, high: float, wanted: dict[MarginQuantity, float]) -> list[SweepCrossing]:
+def _crossings(at: At, low: float, high: float, required: dict[MarginQuantity, float]) -> list[SweepCrossing]:
     """Return the limits crossed between two neighbouring values.
 
     If the loop becomes unstable in between, limits are searched on the stable side only: a margin still above its limit
@@ -87,7 +87,7 @@ def _crossings(at: At, low: float, high: float, wanted: dict[MarginQuantity, flo
         left, right = _bisect(lambda value: at(value).unstable == below, low, high)
         crossings.append(SweepCrossing(MarginQuantity.STABILITY, 0.5 * (left + right), below))
         low, high = (right, high) if below else (low, left)
-    for quantity, limit in wanted.items():
+    for quantity, limit in required.items():
 
         def excess(value: float, quantity: MarginQuantity = quantity, limit: float = limit) -> float:
             return float(np.clip(at(value).size(quantity) - limit, -FAR, FAR))

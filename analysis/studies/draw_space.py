@@ -105,11 +105,11 @@ class DrawSpace:
         """Return the names and the distribution of a draw, or None if it is held. Raises InputError."""
         distribution = draw.distribution
         values = distribution.values if isinstance(distribution, Discrete) else ()
-        given = [name for name in draw.names if name in self.held]
-        if given:
-            if len(given) < len(draw.names):
-                lacking = ", ".join(name for name in draw.names if name not in given)
-                raise InputError("`hold`", given[0], f"is drawn together with {lacking}", "hold all of them or none")
+        fixed = [name for name in draw.names if name in self.held]
+        if fixed:
+            if len(fixed) < len(draw.names):
+                lacking = ", ".join(name for name in draw.names if name not in fixed)
+                raise InputError("`hold`", fixed[0], f"is drawn together with {lacking}", "hold all of them or none")
             if values and self.held[draw.name] not in values:
                 known = ", ".join(f"{value:g}" for value in values)
                 raise InputError(

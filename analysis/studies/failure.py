@@ -46,11 +46,11 @@ class Failure:
         ``values`` has an array (trials,) for every name. A trial whose simulation did not complete, False in ``flown``
         (trials,), is a failure.
         """
-        given = {name: np.asarray(values[name], dtype=float) for name in self.names}
+        columns = {name: np.asarray(values[name], dtype=float) for name in self.names}
         finite = np.array(flown, dtype=bool)
-        for column in given.values():
+        for column in columns.values():
             finite &= np.isfinite(column)
-        margins = np.broadcast_to(self._margin(given), finite.shape)
+        margins = np.broadcast_to(self._margin(columns), finite.shape)
         return np.where(finite & ~np.isnan(margins), margins, np.inf)
 
 
@@ -61,11 +61,11 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
     """
     if text is None:
         return Failure(Expression(f"not ({campaign.success.text})", campaign.success.where))
-    wanted = Failure(Expression(text, ("`failure`", text)))
+    requested = Failure(Expression(text, ("`failure`", text)))
     known = [metric.name for metric in campaign.metrics] + campaign.input_names()
-    for name in sorted(wanted.names - set(known)):
+    for name in sorted(requested.names - set(known)):
         raise InputError("`failure`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
-    return wanted
+    return requested
 
 
 def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:

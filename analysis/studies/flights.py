@@ -14,7 +14,7 @@ from ..campaigns.definition.campaign import TrialRecord
 from ..campaigns.definition.checks import check_draws, check_plan
 from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.draws.declared import Columns
-from ..campaigns.draws.given import ALL, GivenDraws, Streams
+from ..campaigns.draws.supplied import ALL, Streams, SuppliedDraws
 from ..campaigns.execute.flights import task_size
 from ..campaigns.execute.flyer import Flyer
 from ..campaigns.execute.metadata import provenance
@@ -91,7 +91,7 @@ def _fly(
 def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
     """Return a plan with the draws ``first``, without the campaign's records, groups and scatter plots."""
     campaign = replace(plan.campaign, record=TrialRecord(), group=None, scatters=())
-    return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
+    return replace(plan, campaign=campaign).of_samples(SuppliedDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
 class StudyProvenance(CampaignProvenance, total=False):

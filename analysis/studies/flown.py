@@ -13,7 +13,7 @@ import pyarrow
 
 from ...common.atomic import write_atomically
 from ..campaigns.draws.declared import input_names
-from ..campaigns.draws.given import stream_component
+from ..campaigns.draws.supplied import stream_component
 from ..campaigns.folder.files import write_parquet
 from ..campaigns.lost_trials import lost_words
 from .draw_space import DrawSpace

@@ -10,7 +10,7 @@ import numpy as np
 from ...common.errors import InputError
 from ..campaigns.definition.plan import with_streams
 from ..campaigns.draws.declared import Columns
-from ..campaigns.draws.given import ALL, GivenDraws, Streams
+from ..campaigns.draws.supplied import ALL, Streams, SuppliedDraws
 from ..runtime.system.prepared import PreparedSystem
 
 
@@ -55,15 +55,15 @@ def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
     return Noise(tuple(with_streams(prepared)), trial, seed)
 
 
-def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
+def make_samples(columns: Columns, streams: Streams, noise: Noise) -> SuppliedDraws:
     """Return draws with the random streams of all sources, or with those of one trial if the noise is not random."""
     if noise.sources:
-        return GivenDraws(columns, streams)
-    return GivenDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})
+        return SuppliedDraws(columns, streams)
+    return SuppliedDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})
 
 
 def conditions(noise: Noise, held: Mapping[str, float]) -> str:
     """Return the conditions of a result, to end a line with; "" if there are none."""
-    given = [f"{name} = {value:g}" for name, value in held.items()]
-    given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
-    return f", conditional on {' and '.join(given)}" if given else ""
+    texts = [f"{name} = {value:g}" for name, value in held.items()]
+    texts += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
+    return f", conditional on {' and '.join(texts)}" if texts else ""

@@ -25,10 +25,10 @@ PARQUET, JSON = mime_type(DRAWS), mime_type(SUMMARY)
 KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parameter", ".ssb": "parameter"}
 
 
-def write_task(made: CampaignResult, path: Path) -> None:
+def write_task(result: CampaignResult, path: Path) -> None:
     """Write the task of a finished campaign with a folder to ``path`` (.stmd). Raises OSError."""
-    assert made.folder is not None  # the option has no effect without one
-    folder, campaign = made.folder.absolute(), made.plan.campaign
+    assert result.folder is not None  # the option has no effect without one
+    folder, campaign = result.folder.absolute(), result.plan.campaign
     manifest = read_manifest(folder)
     title = f"{manifest.system['name']}: {Path(campaign.file.rpartition('/')[2]).stem}"
     task = Task(title, f"Perilune {version('perilune')}", path)
@@ -53,7 +53,7 @@ def write_task(made: CampaignResult, path: Path) -> None:
     for name in (DRAWS, FILE):
         execution.add_file("Input", folder / name, "configuration", mime_type(name), name)
     for variant in campaign.variants():
-        execution.add_text("Procedure", campaign_command(made.plan, variant), "method", f"variant {variant.name}")
+        execution.add_text("Procedure", campaign_command(result.plan, variant), "method", f"variant {variant.name}")
     for part, description in ((FOLDER, "trials"), ("traces", "recorded flights")):
         for file in sorted((folder / part).rglob("*.parquet")):
             label = f"{description}: {file.relative_to(folder).as_posix()}"
@@ -61,12 +61,14 @@ def write_task(made: CampaignResult, path: Path) -> None:
 
     evaluation = task.step("EvaluationPhase", "EvaluateSimulationResults")
     evaluation.add_file("Output", folder / SUMMARY, "report", JSON, "rates, statistics and verdicts")
-    rates = {variant: f"{entry.success_rate:.10g} of {entry.trials} trials" for variant, entry in made.summary.items()}
+    rates = {
+        variant: f"{entry.success_rate:.10g} of {entry.trials} trials" for variant, entry in result.summary.items()
+    }
     evaluation.classify("org.perilune.success_rate", rates)
 
     verdicts = {
         f"{variant}.{name}": f"{each.verdict}: {each.text}; {each.failures} failures in {each.flights} trials"
-        for variant, entry in made.summary.items()
+        for variant, entry in result.summary.items()
         for name, each in entry.requirements.items()
     }
     decision = task.step("FulfillmentPhase", "DecideSimulationObjectiveFulfillment")

@@ -95,9 +95,9 @@ class Step:
         if existing is not None:
             return existing
         earlier = [tag("stc", each) for each in PARTICLES[: PARTICLES.index(name)]]
-        made = etree.Element(tag("stc", name))
-        self._element.insert(sum(child.tag in earlier for child in self._element), made)
-        return made
+        particle = etree.Element(tag("stc", name))
+        self._element.insert(sum(child.tag in earlier for child in self._element), particle)
+        return particle
 
 
 def _digest(path: Path) -> str:

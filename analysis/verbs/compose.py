@@ -14,9 +14,9 @@ from ...common.targets import check_file
 from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..compose.assembly import compose_document, folder_archive
 from ..compose.files import add_mark, check_unedited, write_source
+from ..compose.reconstruction import source_of
 from ..compose.source import SystemSource, read_source
 from ..compose.text import write_toml
-from ..compose.way_back import source_of
 from ..documents.figures.reading import read_figures
 from ..documents.model import Document
 from ..documents.of.files import composition_document

@@ -154,7 +154,7 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     more = find_variables(prepared.network, options["record"], is_alone=prepared.archive.is_fmu)
     with (
         chdir(Path.cwd()),
-        open_simulation(prepared, faults=faults, log=log, more=more) as simulation,
+        open_simulation(prepared, faults=faults, log=log, additional=more) as simulation,
     ):  # an FMU may change the folder
         requirements = read_requirements(options["require"], [*simulation.signal_names, "time"])
         try:

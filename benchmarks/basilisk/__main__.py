@@ -42,7 +42,7 @@ def run_perilune(folder: Path, plant: str, trials: int, workers: int) -> tuple[f
 
     Returns its time (s), and the final position and velocity of each trial in the landing-site frame.
     """
-    use, given = PLANTS[plant]
+    use, parameters = PLANTS[plant]
     start = time.perf_counter()
     flown = perilune.batch(
         "lunar_landing",
@@ -51,7 +51,7 @@ def run_perilune(folder: Path, plant: str, trials: int, workers: int) -> tuple[f
         workers=workers,
         use={"navigation": "ideal_navigation", **use},
         parameters=["ideal.ssv"],
-        set=NO_LAGS | given,
+        set=NO_LAGS | parameters,
         output=folder / "here",
         overwrite=True,
     )

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from perilune.analysis.runtime.ssp.conversions import IDENTITY
-from perilune.analysis.runtime.ssp.given_values import ParameterValue
+from perilune.analysis.runtime.ssp.parameter_values import ParameterValue
 from perilune.analysis.runtime.system.network import NodeLink
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 from perilune.common.errors import InputError

@@ -36,10 +36,10 @@ def _output(command: list[str], folder: str) -> str:
     return _run(command, folder).output
 
 
-def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] = lambda: True) -> Ended:
+def _run(command: list[str], folder: str | Path, is_needed: Callable[[], bool] = lambda: True) -> Ended:
     """Run a compiler. Raises `CompilationFailed` if it fails, does not start, or is no longer needed."""
     try:
-        ended = run_program(command, folder, is_wanted)
+        ended = run_program(command, folder, is_needed)
     except OSError as error:
         raise CompilationFailed(f"{command[0]} cannot be run: {error.strerror}") from error
     if ended is None:
@@ -65,14 +65,14 @@ def library_files(
     *,
     portable: bool = False,
     flags: Sequence[str] = FLAGS,
-    is_wanted: Callable[[], bool] = lambda: True,
+    is_needed: Callable[[], bool] = lambda: True,
 ) -> list[Path]:
     """Build the shared libraries of the source file ``main`` for each processor of a platform, in the folder
     ``cache``.
 
     ``sources`` contains all files by name, ``flags`` the compiler flags. The libraries depend only on these and the
     compiler, not on time or folder. A damaged library in the cache is compiled again; a temporary file is used if the
-    cache cannot be written. The compiler is terminated when ``is_wanted`` returns False. Raises `CompilerMissing`,
+    cache cannot be written. The compiler is terminated when ``is_needed`` returns False. Raises `CompilerMissing`,
     `CompilationFailed`, and OSError if no file can be written.
     """
     commands = compilers_for(platform, portable)
@@ -83,20 +83,20 @@ def library_files(
         digest = hashlib.sha256("\0".join([identity, *flags, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
-        library = partial(_compile, [*command, *flags], sources, main, Path(main).stem + extension, is_wanted)
+        library = partial(_compile, [*command, *flags], sources, main, Path(main).stem + extension, is_needed)
         files.append(cached_file(cache / f"{digest.hexdigest()[:32]}{extension}", library))
     return files
 
 
 def _compile(
-    command: list[str], sources: Mapping[str, bytes], main: str, output: str, is_wanted: Callable[[], bool]
+    command: list[str], sources: Mapping[str, bytes], main: str, output: str, is_needed: Callable[[], bool]
 ) -> bytes:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for source, text in sources.items():
             (folder / source).write_bytes(text)
         about = f"{' '.join(command)} on {main}"
-        status, _, message = _run([*command, "-o", output, main, "-lm"], folder, is_wanted)
+        status, _, message = _run([*command, "-o", output, main, "-lm"], folder, is_needed)
         if status != 0:
             end = f"ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
             raise CompilationFailed(f"{about}:\n{message or f'error: it {end} without a message'}")

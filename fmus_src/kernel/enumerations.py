@@ -15,8 +15,8 @@ from typing import Any, ClassVar
 
 def member(meaning: str) -> int:
     """Declare a member of an `Enumeration` with its meaning."""
-    made: Any = _Member(meaning)
-    return made
+    created: Any = _Member(meaning)
+    return created
 
 
 class _Member:

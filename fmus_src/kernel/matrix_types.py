@@ -191,19 +191,19 @@ def block(first: int, size: int) -> slice:
     return slice(first, first + size)
 
 
-def _refuse_size(given: Any, wanted: Any) -> NoReturn:
-    raise ValueError(f"elements for a matrix or block of size {wanted}: their size is {given}")
+def _refuse_size(actual: Any, required: Any) -> NoReturn:
+    raise ValueError(f"elements for a matrix or block of size {required}: their size is {actual}")
 
 
 def _of_three(x: float, y: float, z: float) -> Vector3:
     """Return a vector of three components without the choice of size in `vector`, for speed in filters and rigid
     bodies.
     """
-    made = Vector3()
-    made.x = x
-    made.y = y
-    made.z = z
-    return made
+    created = Vector3()
+    created.x = x
+    created.y = y
+    created.z = z
+    return created
 
 
 def _narrow(elements: list, across: bool) -> Any:

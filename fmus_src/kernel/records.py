@@ -55,10 +55,10 @@ class _RecordType(type):
             if not (field.kind in SCALARS or field.kind in VECTORS.values() or isinstance(field.kind, _RecordType)):
                 raise TypeError(f"{name}.{key}: a field is a float, int, bool, vector or record, not {field.kind!r}")
         plain = {key: value for key, value in namespace.items() if key not in fields}
-        made: Any = super().__new__(cls, name, bases, {**plain, "__slots__": tuple(fields), "fields": fields})
+        created: Any = super().__new__(cls, name, bases, {**plain, "__slots__": tuple(fields), "fields": fields})
         if fields:
-            _write_methods(made)
-        return made
+            _write_methods(created)
+        return created
 
 
 class Record(metaclass=_RecordType):
@@ -109,12 +109,12 @@ R = TypeVar("R", bound=Record)
 
 def replace(record: R, **changes: Any) -> R:
     """Return a copy of the record with other values of some fields."""
-    made = object.__new__(type(record))
+    copy = object.__new__(type(record))
     for name in record.fields:
-        setattr(made, name, changes.pop(name) if name in changes else getattr(record, name))
+        setattr(copy, name, changes.pop(name) if name in changes else getattr(record, name))
     if changes:
         raise TypeError(f"{type(record).__name__} has no field {next(iter(changes))!r}")
-    return made
+    return copy
 
 
 def is_space(kind: Any) -> bool:
@@ -163,10 +163,10 @@ def _flatten(values: Any) -> Iterator[Any]:
 def _take(kind: Any, elements: Iterator[Any]) -> Any:
     """Return a value of a field type built from the next elements."""
     if isinstance(kind, _RecordType):
-        made: Any = object.__new__(kind)  # type: ignore[arg-type]
+        record: Any = object.__new__(kind)  # type: ignore[arg-type]
         for name, field in kind.fields.items():  # type: ignore[attr-defined]
-            setattr(made, name, _take(field.kind, elements))
-        return made
+            setattr(record, name, _take(field.kind, elements))
+        return record
     if kind in SCALARS:
         return next(elements)
     return vector(*[next(elements) for _ in kind.names])

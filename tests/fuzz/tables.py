@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.file import read_campaign
-from perilune.analysis.campaigns.draws.given import read_given
+from perilune.analysis.campaigns.draws.supplied import read_supplied
 from perilune.analysis.runtime.ssp.documents import read_document
 from perilune.analysis.runtime.ssp.parameter_sets import apply_mapping, read_parameter_file
 from perilune.analysis.runtime.system.series import read_series
@@ -74,7 +74,7 @@ def any_draws(_fmus: Path, folder: Path) -> Target:
 
     def read(content: bytes) -> None:
         path.write_bytes(content)
-        read_given(path, campaign)
+        read_supplied(path, campaign)
 
     return reads(changed.map(lambda columns: parquet(good | columns)) | flipped_bytes(parquet(good)), read)
 

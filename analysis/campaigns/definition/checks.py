@@ -15,8 +15,8 @@ from ...runtime.system.checks import check_fault
 from ...runtime.system.fmu import NOT_VARIED, STRUCTURAL
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.declared import input_names
-from ..draws.given import ALL, stream_column
 from ..draws.lookup import Lookup
+from ..draws.supplied import ALL, stream_column
 from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan, with_streams
@@ -98,12 +98,12 @@ def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) 
 
 def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
     """Reject random streams for a component that has none."""
-    if plan.given is None:
+    if plan.supplied is None:
         return
     known = sorted({name for prepared in systems for name in with_streams(prepared)})
-    for name in plan.given.streams:
+    for name in plan.supplied.streams:
         if name != ALL and name not in known:
-            where = (plan.given.file or plan.campaign.file, stream_column(name))
+            where = (plan.supplied.file or plan.campaign.file, stream_column(name))
             remedy = suggestion(name, known) if known else "leave the column out"
             raise InputError(*where, "no component that draws random numbers has this name", remedy)
 

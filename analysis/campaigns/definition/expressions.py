@@ -167,8 +167,8 @@ class _Translator:
         if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
             self.refuse(f"{ast.unparse(node)!r} has arguments that are not positional", f"write {name}(a, ...)")
         if len(node.args) < fewest or (maximum is not None and len(node.args) > maximum):
-            wanted = f"{fewest}" if maximum == fewest else f"{fewest} or more"
-            self.refuse(f"{name} is given {len(node.args)} argument(s)", f"give it {wanted} instead")
+            permitted = f"{fewest}" if maximum == fewest else f"{fewest} or more"
+            self.refuse(f"{name} is given {len(node.args)} argument(s)", f"give it {permitted} instead")
         self.namespace[f"f_{name}"] = function
         return self.call(f"f_{name}", *[self.translate(argument) for argument in node.args])
 

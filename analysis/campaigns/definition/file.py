@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ....common.errors import InputError, suggestion
 from ..draws.declared import Draw
-from ..draws.given import stream_component
 from ..draws.lookup import Lookup
+from ..draws.supplied import stream_component
 from .campaign import SCHEMES, TRACES, Campaign, Metric, Scatter, Setting, TrialRecord, Variant
 from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name

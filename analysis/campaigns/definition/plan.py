@@ -18,7 +18,7 @@ from ...runtime.system.passing.flight_table import FlightTable
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ...runtime.system.series import InputSeries
 from ..draws.generators import stream_numbers
-from ..draws.given import GivenDraws, read_given
+from ..draws.supplied import SuppliedDraws, read_supplied
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
 from .campaign import Campaign, TrialGroup, Variant, groups_of
 from .faults import DrawnFault, fault_columns, fault_of_trials
@@ -32,11 +32,11 @@ from .sweeps import with_sweeps
 class TrialSamples:
     """Samples of the trials ``numbers`` of a plan.
 
-    ``given`` are samples supplied instead of drawn ones; ``user_faults`` are those of the command line.
+    ``supplied`` are samples supplied instead of drawn ones; ``user_faults`` are those of the command line.
     """
 
     campaign: Campaign
-    given: GivenDraws | None
+    supplied: SuppliedDraws | None
     user_faults: Sequence[Fault]
     numbers: range
     table: DrawTable
@@ -60,14 +60,18 @@ class TrialSamples:
         """Return the inputs of some of these trials, with faults in the order of `BatchPlan.list_faults`."""
         rows = self._rows(trials)
         drawn = [fault.columns_of(rows) for fault in self.faults]
-        given = [fault_columns(fault, len(trials)) for fault in self.user_faults]
-        return FlightTable(len(trials), self._columns(prepared, trials), [*drawn, *given])
+        fault_samples = [fault_columns(fault, len(trials)) for fault in self.user_faults]
+        return FlightTable(len(trials), self._columns(prepared, trials), [*drawn, *fault_samples])
 
     def _columns(self, prepared: PreparedSystem, trials: range) -> dict[str, np.ndarray]:
         columns = self.table.parameters(self._rows(trials))
         campaign, fmus = self.campaign, prepared.network.fmus
         for name in with_streams(prepared):
-            mine = np.arange(trials.start, trials.stop) if self.given is None else self.given.streams_of(trials, name)
+            mine = (
+                np.arange(trials.start, trials.stop)
+                if self.supplied is None
+                else self.supplied.streams_of(trials, name)
+            )
             seed, streams = stream_numbers(campaign.seed, mine, name, fmus, campaign.file)
             columns[f"{name}.{SEED}"], columns[f"{name}.{STREAM}"] = np.full(len(trials), seed), streams
         return columns
@@ -91,7 +95,7 @@ class BatchPlan:
     ``options`` are the user's system options, which override the campaign's; draws override parameter sets.
     ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names parameters that the executor of the plan sets
     in every simulation. ``faults`` are the user's, which act in every trial after the campaign's; ``series`` are the
-    inputs over time of all trials; ``watch`` supervises each simulation. ``given`` are samples that replace drawn ones.
+    inputs over time of all trials; ``watch`` supervises each simulation. ``supplied`` samples replace drawn ones.
     """
 
     system: str
@@ -102,7 +106,7 @@ class BatchPlan:
     faults: tuple[Fault, ...] = ()
     series: InputSeries | None = None
     watch: Watch = UNWATCHED
-    given: GivenDraws | None = None
+    supplied: SuppliedDraws | None = None
     compared_by: str = ""  # origin of the compared FMUs in errors: --compare, or the campaign's file
     source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
@@ -114,18 +118,18 @@ class BatchPlan:
         """Samples of all trials. Raises InputError."""
         if self.known_draws is not None:
             return self.known_draws
-        if self.given is not None:
-            return table_of(self.campaign, self.given.table)
+        if self.supplied is not None:
+            return table_of(self.campaign, self.supplied.table)
         return CountedDraws(self.campaign) if self.is_counted else draw_table(self.campaign)
 
     @property
     def is_counted(self) -> bool:
         """True if samples are drawn separately for each block of trials, without a table."""
-        return self.given is None and self.campaign.draw_scheme == "counter"
+        return self.supplied is None and self.campaign.draw_scheme == "counter"
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
         """Yield the samples of all trials in blocks of ``size``, without keeping them in memory. Raises InputError."""
-        if self.given is None and not self.is_counted and self.known_draws is None:
+        if self.supplied is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
         for part in split_trials(self.campaign.trials, size):
@@ -138,7 +142,7 @@ class BatchPlan:
     def values_from(self, table: DrawTable, trials: range) -> TrialSamples:
         """Return the samples of trials from their table of draws. Raises InputError."""
         faults = [fault_of_trials(fault, table.columns, trials) for fault in self.campaign.faults]
-        return TrialSamples(self.campaign, self.given, self.faults, trials, table, faults)
+        return TrialSamples(self.campaign, self.supplied, self.faults, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
         """Return a plan of the first ``trials`` trials, with unchanged draws."""
@@ -149,20 +153,20 @@ class BatchPlan:
 
         Unless they begin with trial 0, the draws must be supplied ones.
         """
-        given = None if self.given is None else self.given.of_part(trials)
+        supplied = None if self.supplied is None else self.supplied.of_part(trials)
         draws = None
         if not self.is_counted:  # drawn again for fewer trials they may differ
             draws = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
         campaign = replace(self.campaign, trials=len(trials))
-        return replace(self, campaign=campaign, given=given, known_draws=draws)
+        return replace(self, campaign=campaign, supplied=supplied, known_draws=draws)
 
-    def of_samples(self, given: GivenDraws) -> BatchPlan:
+    def of_samples(self, supplied: SuppliedDraws) -> BatchPlan:
         """Return a plan with one trial for each supplied sample, with derived values, faults and metrics from them.
 
         Lookups are omitted, since their numbers belong to the campaign's own draws. Raises InputError.
         """
-        campaign = replace(self.campaign.without_lookups(), trials=given.trials)
-        return replace(self, campaign=campaign, given=given, known_draws=None)
+        campaign = replace(self.campaign.without_lookups(), trials=supplied.trials)
+        return replace(self, campaign=campaign, supplied=supplied, known_draws=None)
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
@@ -260,7 +264,7 @@ def read_plan(
         source=source,
         until_decided=until_decided,
     )
-    return plan if draws is None else plan.of_samples(read_given(draws, changed))
+    return plan if draws is None else plan.of_samples(read_supplied(draws, changed))
 
 
 def _check_changes(trials: int | None, draws: Path | None, sweeps: Mapping[str, str]) -> None:

@@ -94,11 +94,11 @@ class TomlTable:
                 else:
                     yield prefix + key, value
 
-        seen: set[str] = set()
+        known: set[str] = set()
         for name, value in walk("", self.content):
-            if name in seen:
+            if name in known:
                 raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
-            seen.add(name)
+            known.add(name)
             yield name, value
 
 

@@ -22,7 +22,7 @@ from .declared import Formula
 
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # hexadecimal digits of SHA-256
-MADE_BY, INPUT = "# made by: ", "# input: "
+COMMAND, INPUT = "# made by: ", "# input: "
 WRITE = "write it again; perilune design bounds writes the table of [lookup.bound]"
 
 InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
@@ -59,7 +59,7 @@ class LookupTable:
 
     def write(self, decimals: Mapping[str, int]) -> bytes:
         """Return the table as CSV, with ``decimals`` of each column."""
-        lines = [f"{MADE_BY}{self.command}"] if self.command else []
+        lines = [f"{COMMAND}{self.command}"] if self.command else []
         lines += [f"{INPUT}{name} = {text}" for name, text in self.inputs.items()]
         lines.append(",".join((TRIAL, INPUTS, *self.columns)))
         for trial, hashed in enumerate(self.hashes):
@@ -75,7 +75,7 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
     except UnicodeDecodeError as error:
         raise InputError(file, f"byte {error.start}", "not UTF-8", WRITE) from error
     comments = [line for line in lines if line.startswith("#")]
-    made = [line.removeprefix(MADE_BY).strip() for line in comments if line.startswith(MADE_BY)]
+    commands = [line.removeprefix(COMMAND).strip() for line in comments if line.startswith(COMMAND)]
     pairs = (line.removeprefix(INPUT).partition(" = ") for line in comments if line.startswith(INPUT))
     rows = [line.split(",") for line in lines if line.strip() and not line.startswith("#")]
     head = rows.pop(0) if rows else []
@@ -90,7 +90,9 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
         except ValueError as error:
             raise InputError(file, f"row {trial}", f"not numbers: {', '.join(row[2:])}", WRITE) from error
     columns = dict(zip(head[2:], numbers.T, strict=True))
-    return LookupTable(columns, [row[1] for row in rows], {name: text for name, _, text in pairs}, "".join(made[:1]))
+    return LookupTable(
+        columns, [row[1] for row in rows], {name: text for name, _, text in pairs}, "".join(commands[:1])
+    )
 
 
 @dataclass(frozen=True)
@@ -153,7 +155,7 @@ class Lookup:
             problem = f"{', '.join(different)}: in only one of the table and [{self.element}.inputs]"
             raise InputError(self.label, "input", problem, self.table.remedy)
         hashes = self.table.hashes[trials.start : trials.stop]
-        for trial, made, actual in zip(trials, hashes, input_hashes(columns), strict=True):
-            if made != actual:
+        for trial, stored, actual in zip(trials, hashes, input_hashes(columns), strict=True):
+            if stored != actual:
                 problem = f"computed for other inputs ({', '.join(self.inputs)}) than those of {variant}"
                 raise InputError(self.label, f"trial {trial}", problem, self.table.remedy)

@@ -21,7 +21,7 @@ from ....common.bounds import TABLE_TRIALS
 from ....common.errors import InputError
 from .declared import CampaignDraws, Columns, Design, designs_of, input_names
 from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
-from .given import stream_component
+from .supplied import stream_component
 
 
 class Draws(Protocol):

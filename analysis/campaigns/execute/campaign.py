@@ -118,11 +118,11 @@ class LoadedCampaign:
             problem = f"{self.manifest.elementary_functions}, this perilune has {VERSION}: the last bits would differ"
             remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
             raise InputError(self.user_folder or FILE, "elementary_functions", problem, remedy)
-        wanted = set(shards)
-        for shard in sorted(wanted):
+        requested = set(shards)
+        for shard in sorted(requested):
             if not 0 <= shard < self.numbering.count:
                 raise InputError("shard", str(shard), "no such shard", f"give 0 to {self.numbering.count - 1}")
-        return sorted(wanted & set(self.missing()))
+        return sorted(requested & set(self.missing()))
 
 
 def open_campaign(

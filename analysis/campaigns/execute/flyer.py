@@ -14,7 +14,7 @@ from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, FlightRe
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
 from ...runtime.process.opening import may_load_here, open_simulation
-from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.ssp.parameter_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import VariantNames, variant_names
 from ..definition.plan import BatchPlan, TrialSamples
@@ -62,15 +62,15 @@ class Flyer:
                     self.close()  # other variants may hold the one instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
-                wanted = None if everything else {*names.signals, *names.statuses}
+                requested = None if everything else {*names.signals, *names.statuses}
                 faults = self.plan.list_faults()
                 log = self._log_of(variant)
                 simulation = open_simulation(
                     prepared,
                     in_child=self._in_child,
                     varied=names.varied,
-                    wanted=wanted,
-                    more=names.signals,  # a state of an FMU is not among all that is exchanged
+                    requested=requested,
+                    additional=names.signals,  # a state of an FMU is not among all that is exchanged
                     faults=faults,
                     log=log,
                 )
@@ -170,7 +170,7 @@ class Flyer:
         return result, self._look_at(result, trial, names)
 
     def _fly_recorded(
-        self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
+        self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, requested: set[str] | None
     ) -> FlightResult:
         """Simulate a trial with these signals recorded, None for all."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
@@ -178,8 +178,8 @@ class Flyer:
             prepared,
             in_child=self._in_child,
             varied=names.varied,
-            wanted=wanted,
-            more=names.signals,
+            requested=requested,
+            additional=names.signals,
             faults=faults,
             log=log,
         ) as simulation:

@@ -65,8 +65,8 @@ def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) ->
         metadata["faults"] = faults
     if campaign.sweeps:
         metadata["sweep"] = dict(campaign.sweeps)
-    if plan.given is not None and plan.given.sha256:
-        metadata["draws_sha256"] = plan.given.sha256
+    if plan.supplied is not None and plan.supplied.sha256:
+        metadata["draws_sha256"] = plan.supplied.sha256
     if plan.is_counted:
         metadata["draw_scheme"] = campaign.draw_scheme
     metadata["description"] = campaign.description

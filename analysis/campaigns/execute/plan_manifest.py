@@ -27,7 +27,7 @@ from ..definition.file import parse_campaign
 from ..definition.plan import BatchPlan
 from ..definition.source import CampaignSource
 from ..definition.sweeps import with_sweeps
-from ..draws.given import GivenDraws, part_streams
+from ..draws.supplied import SuppliedDraws, part_streams
 from ..folder.draws import read_draws
 from ..folder.files import numbers, read_table
 from ..folder.manifest import (
@@ -70,7 +70,7 @@ def make_manifest(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tup
 
     ``systems`` are those of `check_plan`, by variant. Foreign FMUs are tested for their reset here, at first use.
     """
-    campaign, contents, given, series = plan.campaign, _Contents(), plan.given, plan.series
+    campaign, contents, supplied, series = plan.campaign, _Contents(), plan.supplied, plan.series
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
     with chdir(plan.options.folder):  # to which paths are relative
         system = _system_document([prepared.archive for prepared in systems.values()], contents)
@@ -87,7 +87,7 @@ def make_manifest(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tup
         options=store_options(plan.options),
         faults=[str(fault) for fault in plan.faults],
         series=None if series is None else _keep_series(series, contents),
-        draws=None if given is None else contents.keep_table(given.file, given.sha256, given.table),
+        draws=None if supplied is None else contents.keep_table(supplied.file, supplied.sha256, supplied.table),
         timeout=plan.watch.timeout,
         fmus={
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
@@ -187,8 +187,8 @@ def restore(
     )
     if manifest.draws is not None:
         draw_columns = part_streams(_read_columns(contents, manifest.draws))
-        given = GivenDraws(*draw_columns, manifest.draws["label"], manifest.draws["sha256"])
-        plan = plan.of_samples(given).of_first(manifest.trials)
+        supplied = SuppliedDraws(*draw_columns, manifest.draws["label"], manifest.draws["sha256"])
+        plan = plan.of_samples(supplied).of_first(manifest.trials)
     elif not plan.is_counted:
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
         plan = replace(plan, known_draws=stored_table)  # drawn again they could differ

@@ -94,8 +94,8 @@ class GraphLayout:
         for _ in range(SWEEPS):
             for places, row in zip(self.layers, offsets, strict=True):
                 near = [[heights[other] for other in self.before[place] + self.after[place]] for place in places]
-                wanted = np.array([np.mean(values) if values else 0.0 for values in near])
-                regression = isotonic_regression(wanted - row).x + row
+                desired = np.array([np.mean(values) if values else 0.0 for values in near])
+                regression = isotonic_regression(desired - row).x + row
                 heights.update(zip(places, regression.tolist(), strict=True))
         return heights
 

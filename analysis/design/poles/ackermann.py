@@ -35,16 +35,16 @@ def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
 
 
 def ackermann_of(
-    a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, wanted: np.ndarray | None = None
+    a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, desired: np.ndarray | None = None
 ) -> StateFeedback:
-    """Return the gain of N (p, m, m); ``wanted`` are its poles if they are known. Raises PlacementError."""
+    """Return the gain of N (p, m, m); ``desired`` are its poles if they are known. Raises PlacementError."""
     rows, condition = last_rows(a, b)
     gain = rows
     for block in coefficients[::-1]:  # Horner
         gain = gain @ a + block @ rows
-    if wanted is None:
-        wanted = np.linalg.eigvals(block_companion(coefficients))
-    return StateFeedback("ackermann", gain, wanted, a - b @ gain, condition)
+    if desired is None:
+        desired = np.linalg.eigvals(block_companion(coefficients))
+    return StateFeedback("ackermann", gain, desired, a - b @ gain, condition)
 
 
 def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarray:
@@ -90,6 +90,6 @@ def bass_gura(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
     stack, power, condition = row_stack(a, b, "generalised Bass-Gura")
     inputs = b.shape[1]
     own = np.linalg.solve(stack.T, -power.T).T
-    wanted = np.hstack(list(make_polynomial(spectrum, [len(a) // inputs] * inputs)))
-    gain = (wanted - own) @ stack
+    desired = np.hstack(list(make_polynomial(spectrum, [len(a) // inputs] * inputs)))
+    gain = (desired - own) @ stack
     return StateFeedback("bass_gura", gain, spectrum.poles, a - b @ gain, condition)

@@ -73,10 +73,10 @@ class Eigenvectors:
         parts = by_vectors.T
         middle = self.reals + self.pairs
         pairs = np.sqrt(2.0) * (parts[self.reals : middle] + 1j * parts[middle:])
-        seen = self._spaces.conj().swapaxes(1, 2) @ np.vstack([parts[: self.reals], pairs])[:, :, None]
-        seen = seen[:, :, 0]
-        along = np.sum((directions.conj() * seen).real, axis=1, keepdims=True)
-        across = (seen - along * directions) / sizes
+        projected = self._spaces.conj().swapaxes(1, 2) @ np.vstack([parts[: self.reals], pairs])[:, :, None]
+        projected = projected[:, :, 0]
+        along = np.sum((directions.conj() * projected).real, axis=1, keepdims=True)
+        across = (projected - along * directions) / sizes
         real, pair = across[: self.reals], across[self.reals :]
         return np.concatenate([real.real.ravel(), pair.real.ravel(), pair.imag.ravel()])
 
@@ -133,9 +133,9 @@ def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[
     gain = family.gain(vectors)
     left, sizes, right = np.linalg.svd(gain, full_matrices=False)
     size, fraction = _norm(sizes, order)
-    seen = np.linalg.solve(vectors, ((left * fraction) @ right).T).T
-    outer = family.inverse.T @ seen
-    return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ seen
+    sensitivity = np.linalg.solve(vectors, ((left * fraction) @ right).T).T
+    outer = family.inverse.T @ sensitivity
+    return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ sensitivity
 
 
 def on_levels(levels: Sequence[PoleLevel], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
@@ -147,16 +147,16 @@ def on_levels(levels: Sequence[PoleLevel], family: Eigenvectors, free: np.ndarra
     passed to higher levels through P. If the rows separate a conjugate pair, Phi_i is complex; the gain is not.
     """
     vectors, poles = family.as_complex(family.at(free))
-    wanted, above, remaining = [], [], poles
+    desired, above, remaining = [], [], poles
     for level in levels:
         inverse = np.linalg.inv(vectors)
         rows = inverse @ level.left
         chosen = qr(rows.conj().T, mode="r", pivoting=True)[1][: level.rank]
-        wanted.append(np.linalg.solve(rows[chosen], remaining[chosen, None] * rows[chosen]))
+        desired.append(np.linalg.solve(rows[chosen], remaining[chosen, None] * rows[chosen]))
         back = np.linalg.solve(rows[chosen], inverse[chosen])
         above.append((np.linalg.pinv(level.left) - back) @ level.down.T)
         vectors, remaining = level.down @ np.delete(vectors, chosen, axis=1), np.delete(remaining, chosen)
-    return place_on_levels(levels, wanted, family.spectrum.poles, above=above)
+    return place_on_levels(levels, desired, family.spectrum.poles, above=above)
 
 
 def family_of(

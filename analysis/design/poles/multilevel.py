@@ -79,16 +79,16 @@ def decompose(
 
 
 def assemble(
-    levels: Sequence[PoleLevel], wanted: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
+    levels: Sequence[PoleLevel], desired: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
+    """Return K of u = K x and B^-, both of level 0, for Phi_i = ``desired``, real or complex, level 0 first.
 
     ``above`` has, for each level, the required gain of the level above, from which the component in the null space of R
     is taken, since Phi does not determine it. By default that component is 0.
     """
     gain = inverse = np.zeros((0, 0))
     for i in reversed(range(len(levels))):
-        level, phi = levels[i], wanted[i]
+        level, phi = levels[i], desired[i]
         inverse = np.linalg.pinv(level.left)
         if len(level.down):
             inverse = inverse - gain @ level.down
@@ -101,13 +101,13 @@ def assemble(
 
 def place_on_levels(
     levels: Sequence[PoleLevel],
-    wanted: Sequence[np.ndarray],
+    desired: Sequence[np.ndarray],
     poles: np.ndarray,
     method: str = "multilevel",
     above: Sequence[np.ndarray] | None = None,
 ) -> StateFeedback:
-    """Return the gain of u = -K x for Phi_i = ``wanted``, level 0 first, which together have the ``poles``."""
-    gain = -np.real(assemble(levels, wanted, above)[0])
+    """Return the gain of u = -K x for Phi_i = ``desired``, level 0 first, which together have the ``poles``."""
+    gain = -np.real(assemble(levels, desired, above)[0])
     closed_loop = levels[0].a - levels[0].b @ gain
     return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])
 
@@ -128,18 +128,16 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
 
 
 def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> None:
-    wanted = sizes[level] if level < len(sizes) else 0
+    size = sizes[level] if level < len(sizes) else 0
     outside = float(np.linalg.norm(b[rank:], 2) / np.linalg.norm(b, 2)) if len(b) > rank else 0.0
-    if wanted == rank and outside <= _OUTSIDE:
+    if size == rank and outside <= _OUTSIDE:
         return
-    says = f"has {wanted} states where the rank is {rank}"
-    if wanted == rank:
+    says = f"has {size} states where the rank is {rank}"
+    if size == rank:
         says = f"leaves out {outside:.2g} of the states that drive it"
     problem = f"the basis of level {level} {says}"
     remedy = "give a basis of the states that B drives, then of the states that these drive, and so on"
-    raise PlacementError(
-        "multilevel placement", Reason.RANK, problem, float(wanted) if wanted != rank else outside, remedy
-    )
+    raise PlacementError("multilevel placement", Reason.RANK, problem, float(size) if size != rank else outside, remedy)
 
 
 def _unreachable(level: int, states: int, values: np.ndarray, scale: float, tolerance: float) -> PlacementError:

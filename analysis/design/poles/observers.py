@@ -53,10 +53,10 @@ def reduced_observer(
     if len(outputs) == len(state):
         raise InputError("modal", "C", "C measures every state, and no observer is needed", "use x = C^-1 y")
     hidden, inverse = null_space(outputs), np.linalg.pinv(outputs)
-    own, seen = hidden.T @ state, outputs @ state
-    dual = _dual(own @ hidden, seen @ hidden, poles, options)
+    own, measured = hidden.T @ state, outputs @ state
+    dual = _dual(own @ hidden, measured @ hidden, poles, options)
     gain = dual.gain.T
-    matrix = own @ hidden - gain @ seen @ hidden
+    matrix = own @ hidden - gain @ measured @ hidden
     return ReducedObserver(
         dual.method,
         gain,
@@ -64,7 +64,7 @@ def reduced_observer(
         matrix,
         dual.condition_u,
         dual.levels,
-        from_y=matrix @ gain + (own - gain @ seen) @ inverse,
+        from_y=matrix @ gain + (own - gain @ measured) @ inverse,
         from_u=(hidden.T - gain @ outputs) @ driven,
         of_zeta=hidden,
         of_y=inverse + hidden @ gain,

@@ -91,9 +91,9 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
         remedy = "remove outputs that depend linearly on others"
         raise PlacementError("set of output feedbacks", Reason.RANK, problem, rank, remedy)
     # [N] V C^perp = -T A^p C^perp, each row of [N] separately
-    seen = stack @ hidden
-    row = -power @ hidden @ np.linalg.pinv(seen)
-    retained = null_space(seen.T).T
+    reduced = stack @ hidden
+    row = -power @ hidden @ np.linalg.pinv(reduced)
+    retained = null_space(reduced.T).T
     directions = np.zeros((size, len(retained), size, len(state)))
     for i in range(size):
         directions[i, :, i] = retained

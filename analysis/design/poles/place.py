@@ -128,19 +128,19 @@ def place_levels(
     if bases is None:
         levels = decompose(state, inputs, _above(tolerance))
     else:
-        given = [real_matrix(f"bases[{i}]", basis) for i, basis in enumerate(bases)]
-        turn = _whole(given, len(state))
+        checked = [real_matrix(f"bases[{i}]", basis) for i, basis in enumerate(bases)]
+        turn = _whole(checked, len(state))
         levels = decompose(
-            turn.T @ state @ turn, turn.T @ inputs, _above(tolerance), [basis.shape[1] for basis in given]
+            turn.T @ state @ turn, turn.T @ inputs, _above(tolerance), [basis.shape[1] for basis in checked]
         )
     if len(matrices) != len(levels):
         ranks = ", ".join(str(level.rank) for level in levels)
         raise InputError("modal", "matrices", f"{len(matrices)} matrices", f"give one for each level, of sizes {ranks}")
     sizes = [(level.rank, level.rank) for level in levels]
-    wanted = [
+    desired = [
         real_matrix(f"matrices[{i}]", phi, size) for i, (phi, size) in enumerate(zip(matrices, sizes, strict=True))
     ]
-    feedback = place_on_levels(levels, wanted, np.concatenate([np.linalg.eigvals(phi) for phi in wanted]))
+    feedback = place_on_levels(levels, desired, np.concatenate([np.linalg.eigvals(phi) for phi in desired]))
     if bases is None:
         return feedback
     gain = feedback.gain @ turn.T

@@ -51,8 +51,8 @@ def minimise_gain(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndar
 
     Raises PlacementError for repeated poles, at which Newton's method has no derivative.
     """
-    wanted = feedbacks[0].wanted
-    apart = np.abs(wanted[:, None] - wanted[None, :]) + np.diag(np.full(len(wanted), np.inf))
+    desired = feedbacks[0].wanted
+    apart = np.abs(desired[:, None] - desired[None, :]) + np.diag(np.full(len(desired), np.inf))
     if not np.min(apart) > 0.0:
         raise PlacementError(
             "output feedback", Reason.RANK, "repeated poles have no derivative", 0.0, "use choice least_norm"
@@ -87,7 +87,7 @@ def _search_from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndar
 def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
     """Return the result of one search, None if it does not have the poles."""
     radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
-    wanted = np.poly(start.wanted / radius).real[1:]
+    desired = np.poly(start.wanted / radius).real[1:]
     driven = b * (scale / radius)
 
     def loop(free: np.ndarray) -> np.ndarray:
@@ -106,7 +106,7 @@ def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) 
         method="SLSQP",
         constraints={
             "type": "eq",
-            "fun": lambda free: mixed @ (polynomial_and_slope(loop(free))[0] - wanted),
+            "fun": lambda free: mixed @ (polynomial_and_slope(loop(free))[0] - desired),
             "jac": lambda free: mixed @ slope(free),
         },
         options={"ftol": _ACCURACY, "maxiter": _STEPS},

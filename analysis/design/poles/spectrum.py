@@ -69,13 +69,13 @@ class Spectrum:
 
     def splits(self, size: int) -> Iterator[tuple[Spectrum, Spectrum]]:
         """Yield every subset of ``size`` poles that is closed under conjugation, with the remaining poles."""
-        seen = set()
+        known = set()
         for count in range(min(size // 2, len(self.pairs)) + 1):
             for pairs in combinations(range(len(self.pairs)), count):
                 for real in combinations(range(len(self.real)), size - 2 * count):
                     part = Spectrum(tuple(self.real[i] for i in real), tuple(self.pairs[i] for i in pairs))
-                    if part not in seen:
-                        seen.add(part)
+                    if part not in known:
+                        known.add(part)
                         single = tuple(pole for i, pole in enumerate(self.real) if i not in real)
                         yield part, Spectrum(single, tuple(p for i, p in enumerate(self.pairs) if i not in pairs))
 
@@ -142,15 +142,15 @@ def _lists(sizes: Sequence[int]) -> list[list]:
     return [[] for _ in sizes]
 
 
-def match(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
+def match(desired: np.ndarray, actual: np.ndarray) -> np.ndarray:
     """Return the required pole for each pole found, one to one, with the least sum of distances."""
-    rows, columns = linear_sum_assignment(np.abs(actual[:, None] - wanted[None, :]))
-    return wanted[columns[np.argsort(rows)]]
+    rows, columns = linear_sum_assignment(np.abs(actual[:, None] - desired[None, :]))
+    return desired[columns[np.argsort(rows)]]
 
 
-def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
+def distance(desired: np.ndarray, actual: np.ndarray) -> float:
     """Return the largest distance between matched poles."""
-    return float(np.max(np.abs(match(wanted, actual) - actual), initial=0.0))
+    return float(np.max(np.abs(match(desired, actual) - actual), initial=0.0))
 
 
 def _alone(name: str, pole: complex) -> InputError:

@@ -55,7 +55,7 @@ class ZerothLevel:
                 raise PlacementError("output feedback", Reason.RANK, problem, ratio, remedy)
         self.a, self.b, self.c = a, b, c
         self.inverse, self.down = np.linalg.pinv(b), null_space(b.T).T if basis is None else basis.T
-        self.hidden, self.seen = null_space(c), np.linalg.pinv(c)
+        self.hidden, self.pseudoinverse = null_space(c), np.linalg.pinv(c)
         self.above = self.down @ a @ self.down.T, self.down @ a @ b
 
     @property
@@ -72,7 +72,7 @@ class ZerothLevel:
         self, inverse: np.ndarray, phi: np.ndarray, upper: Spectrum, lower: Spectrum, condition: float
     ) -> OutputFeedback:
         """Return F from B^- and Phi_0; ``condition`` is the condition number of X."""
-        gain = (phi @ inverse - inverse @ self.a) @ self.seen
+        gain = (phi @ inverse - inverse @ self.a) @ self.pseudoinverse
         return OutputFeedback(
             "direct",
             gain,
@@ -134,17 +134,19 @@ def output_feedback_levels(
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
     size = len(state) - inputs.shape[1]
-    given = None
+    checked = None
     if basis is not None:
-        given = real_matrix("basis", basis, (len(state), size))
-        off = max(np.abs(given.T @ given - np.eye(size)).max(), np.abs(given.T @ inputs).max() / np.abs(inputs).max())
+        checked = real_matrix("basis", basis, (len(state), size))
+        off = max(
+            np.abs(checked.T @ checked - np.eye(size)).max(), np.abs(checked.T @ inputs).max() / np.abs(inputs).max()
+        )
         if off > _ORTHONORMAL:
             problem = f"its columns are not orthonormal with basis' B = 0, by {off:.2g}"
             raise InputError("modal", "basis", problem, "use columns of the null space of B'")
-    level = ZerothLevel(state, inputs, outputs, given)
-    wanted = real_matrix("upper", upper, (size, size))
-    first = place_levels(*level.above, [wanted], bases=[np.eye(size)])
-    high = Spectrum.of(np.linalg.eigvals(wanted), size, "upper")
+    level = ZerothLevel(state, inputs, outputs, checked)
+    desired = real_matrix("upper", upper, (size, size))
+    first = place_levels(*level.above, [desired], bases=[np.eye(size)])
+    high = Spectrum.of(np.linalg.eigvals(desired), size, "upper")
     return place_zeroth_level(level, first, high, Spectrum.of(poles, inputs.shape[1]))
 
 
@@ -155,11 +157,11 @@ def place_square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: i
     """
     levels, family = family_of(*level.above, upper)
     radius = float(np.max(np.abs(lower.poles)))
-    wanted = np.poly(lower.poles / radius).real[1:]
+    desired = np.poly(lower.poles / radius).real[1:]
 
     def residual(free: np.ndarray) -> np.ndarray:
         _, x, y = level.lower_matrices(family.gain(family.at(free)))
-        return np.poly(np.linalg.solve(x.T, y.T) / radius).real[1:] - wanted
+        return np.poly(np.linalg.solve(x.T, y.T) / radius).real[1:] - desired
 
     random = np.random.default_rng(seed)
     minimum = np.inf

@@ -135,9 +135,9 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
     turn = sp.eye(a.rows)
     sizes = None
     if bases is not None:
-        given = [matrix_of(f"bases[{i}]", basis, (a.rows, None)) for i, basis in enumerate(bases)]
-        turn = sp.Matrix.hstack(*given)
-        sizes = [basis.cols for basis in given]
+        checked = [matrix_of(f"bases[{i}]", basis, (a.rows, None)) for i, basis in enumerate(bases)]
+        turn = sp.Matrix.hstack(*checked)
+        sizes = [basis.cols for basis in checked]
         if turn.cols != a.rows or factor_elements(turn.T * turn) != sp.eye(a.rows):
             raise InputError(
                 "modal", "bases", "together they are not an orthonormal basis of the state space", "orthonormalise them"

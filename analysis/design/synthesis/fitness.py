@@ -12,7 +12,7 @@ from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.flyer import Flyer, TrialResult
 from ...campaigns.execute.workers import FlyerPool
-from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.ssp.parameter_values import ParameterValue
 from ..laws.law import NetworkOperator, law_parameters
 from .candidate import AdmissionThreshold, Evaluation, EvaluationTask
 
@@ -77,10 +77,10 @@ def fly_law(
     """Simulate a law's trials after the known ones, in order, until the last or until the bar rejects the sums."""
     sums, successes, flown = known
     trials = flyer.plan.campaign.trials
-    given: dict[str, ParameterValue] | None = overlay
+    changes: dict[str, ParameterValue] | None = overlay
     while flown < trials:
-        result = flyer.fly_one(VARIANT, flown, given)
-        given = None  # the law is unchanged
+        result = flyer.fly_one(VARIANT, flown, changes)
+        changes = None  # the law is unchanged
         values = [objective_value(expression, result, flown) for expression in expressions]
         sums = tuple(total + value for total, value in zip(sums, values, strict=True))
         successes += result.success

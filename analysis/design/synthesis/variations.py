@@ -74,11 +74,11 @@ def prune(matrix: Matrix) -> Matrix:
     needed = [node in OUTPUTS for node in range(SIZE)]
     for node in reversed(range(SIZE)):
         needed[node] |= any(
-            entry and wanted for entry, wanted in zip(matrix[node][node + 1 :], needed[node + 1 :], strict=True)
+            entry and is_needed for entry, is_needed in zip(matrix[node][node + 1 :], needed[node + 1 :], strict=True)
         )
     blank = (0,) * SIZE
     return tuple(
-        tuple(entry if wanted else 0 for entry, wanted in zip(matrix[row], needed, strict=True))
+        tuple(entry if is_needed else 0 for entry, is_needed in zip(matrix[row], needed, strict=True))
         if needed[row]
         else blank
         for row in range(SIZE)

@@ -58,7 +58,7 @@ class HoverStudy:
     vehicle: Vehicle
     margins: Margins | None
     transfer: Transfer
-    given: bool
+    is_duration_set: bool
     programme: Programme
     vertical: Programme
     optimum: PlannedPath | None
@@ -75,7 +75,7 @@ class HoverStudy:
         if self.durations is not None and self.distances is not None:
             return self
         programme = self.programme
-        if self.given:
+        if self.is_duration_set:
             programme = find_programme(programme.vehicle, self.transfer) or programme
         return replace(
             self,
@@ -140,7 +140,7 @@ def hover_study(
         vehicle=vehicle,
         margins=margins,
         transfer=transfer,
-        given=duration is not None,
+        is_duration_set=duration is not None,
         programme=programme,
         vertical=vertical,
         optimum=optimal_path,

@@ -118,7 +118,7 @@ class Arrangement:
 
     def junctions(self) -> Iterator[tuple[PortKey, Point]]:
         """Yield the points where lines of one port diverge or merge, with the source port."""
-        seen: dict[Point, PortKey] = {}
+        sources: dict[Point, PortKey] = {}
         for end in ("source", "target"):
             groups: dict[PortKey, list[Route]] = defaultdict(list)
             for route in self.routes:
@@ -127,8 +127,8 @@ class Arrangement:
                 segments = list(dict.fromkeys(segment for route in routes for segment in route.segments()))
                 for point in dict.fromkeys(point for segment in segments for point in segment):
                     if len({way for segment in segments for way in _iterate_directions(point, segment)}) > 2:
-                        seen.setdefault(point, routes[0].edge.source)
-        for point, source in seen.items():
+                        sources.setdefault(point, routes[0].edge.source)
+        for point, source in sources.items():
             yield source, point
 
 

@@ -20,7 +20,7 @@ def verification_document(files: Sequence[Verification]) -> Document:
     """Return the document of verified files: each experiment, notes, and which files are unaltered."""
     nodes: list[Node] = []
     for each in files:
-        nodes += [Text(f"{each.file}: {_summary(made)}") for made in each.reproductions]
+        nodes += [Text(f"{each.file}: {_summary(reproduction)}") for reproduction in each.reproductions]
         nodes += [Text(f"{each.file}: {name}: report reproduced") for name in each.reproduced]
         nodes += [Text(f"{each.file}: note: {note}", is_wrapped=True) for note in each.notes]
         nodes += [Text(f"{each.file}: {_verdict(each)}")] if not _problems(each) else []
@@ -33,25 +33,24 @@ def verification_problems(files: Sequence[Verification]) -> list[str]:
     return [on_one_line(line) for each in files for line in (*_problems(each), *_weaknesses(each))]
 
 
-def _summary(made: Reproduction) -> str:
-    compared = (
-        f"{made.name}: {made.references.rpartition('/')[2]}: {made.samples} samples of {len(made.signals)} signals"
-    )
-    if not made.signals:
+def _summary(reproduction: Reproduction) -> str:
+    subject = f"{reproduction.name}: {reproduction.references.rpartition('/')[2]}"
+    compared = f"{subject}: {reproduction.samples} samples of {len(reproduction.signals)} signals"
+    if not reproduction.signals:
         return f"{compared}: not compared"
-    more = "; reference times lie between communication points: interpolated" if made.interpolated else ""
-    more += f"; not numbers, not compared: {', '.join(made.not_compared)}" if made.not_compared else ""
-    widest = made.widest
+    more = "; reference times lie between communication points: interpolated" if reproduction.interpolated else ""
+    more += f"; not numbers, not compared: {', '.join(reproduction.not_compared)}" if reproduction.not_compared else ""
+    widest = reproduction.widest
     more = (
         f"; tolerance up to {number(widest.tolerance, 2)} of the greatest magnitude, {widest.name}{more}"
         if widest.tolerance
         else f"; tolerance 0{more}"
     )
-    if made.exact:
+    if reproduction.exact:
         return f"{compared}: the same bits{more}"
-    worst = made.signals[0]
+    worst = reproduction.signals[0]
     if not worst.met:
-        return f"{compared}: {sum(not each.met for each in made.signals)} signals differ{more}"
+        return f"{compared}: {sum(not each.met for each in reproduction.signals)} signals differ{more}"
     fraction = f"{number(worst.excess, 2)} of the tolerance"
     return f"{compared}: differ by at most {fraction}, {worst.name} at t = {number(worst.time)} s{more}"
 
@@ -64,18 +63,18 @@ def _verdict(verification: Verification) -> str:
 
 def _weaknesses(verification: Verification) -> list[str]:
     return [
-        f"{verification.file}: {made.name}: compared, not verified: {weakness}"
-        for made in verification.reproductions
-        for weakness in made.weaknesses
+        f"{verification.file}: {reproduction.name}: compared, not verified: {weakness}"
+        for reproduction in verification.reproductions
+        for weakness in reproduction.weaknesses
     ]
 
 
 def _problems(verification: Verification) -> list[str]:
     problems = [f"{verification.file}: {problem}" for problem in verification.problems]
-    for made in verification.reproductions:
-        where = f"{verification.file}: {made.name}"
-        problems += [f"{where}: {problem}" for problem in made.problems]
-        wrong = [_difference(each) for each in made.signals if not each.met]
+    for reproduction in verification.reproductions:
+        where = f"{verification.file}: {reproduction.name}"
+        problems += [f"{where}: {problem}" for problem in reproduction.problems]
+        wrong = [_difference(each) for each in reproduction.signals if not each.met]
         problems += [f"{where}: {line}" for line in limit_lines(wrong, NAMED, "signals")]
     return problems
 

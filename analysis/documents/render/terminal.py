@@ -38,7 +38,7 @@ def _section_lines(section: Section) -> list[str]:
     lines = _lines(section.nodes)
     if not lines or not section.heading:
         return lines
-    return ["", f"{section.heading}, {section.given}" if section.given else section.heading, *lines]
+    return ["", f"{section.heading}, {section.condition}" if section.condition else section.heading, *lines]
 
 
 def _lines(nodes: Iterable[Node]) -> list[str]:

@@ -31,9 +31,9 @@ class Camera:
         """Return points (m), [n, 3], in camera axes, [n, 3]: right, up, depth."""
         return np.asarray((points - self.eye) @ self.axes.T)
 
-    def project(self, seen: np.ndarray) -> np.ndarray:
+    def project(self, points: np.ndarray) -> np.ndarray:
         """Project points from `look` to the picture, [n, 2]: right of its centre and below it, over its height."""
-        return np.asarray(seen[:, :2] * [0.5, -0.5] / (self.tangent * seen[:, 2:]))
+        return np.asarray(points[:, :2] * [0.5, -0.5] / (self.tangent * points[:, 2:]))
 
 
 def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | None:

@@ -28,27 +28,27 @@ def draw_names(
         if isinstance(point, BodyView) and attitude_at(point, row) is not None:
             extent = max(point.size)
         at = position_at(point, row)
-        seen = _on_picture(camera, ground, at)
-        if seen is None:
+        position = _on_picture(camera, ground, at)
+        if position is None:
             continue
         size = extent / (2.0 * camera.tangent * float(camera.look(at[None])[0, 2]))
         if size < RINGED:
             markup = Markup('<circle cx="{:.1f}" cy="{:.1f}" r="4" fill="none" style="stroke:{}" stroke-width="1.3"/>')
-            yield markup.format(*seen, lighter(point.colour))
+            yield markup.format(*position, lighter(point.colour))
         if size < NAMED:
-            yield text(point.name, seen[0], seen[1] - 6.0 - 0.5 * size * HEIGHT)
+            yield text(point.name, position[0], position[1] - 6.0 - 0.5 * size * HEIGHT)
     for arrow in arrows:
-        seen = _on_picture(camera, ground, arrow.end)
-        if seen is not None:
-            yield text(arrow.name, seen[0], seen[1] - 4.0, "arrow-name")
+        position = _on_picture(camera, ground, arrow.end)
+        if position is not None:
+            yield text(arrow.name, position[0], position[1] - 4.0, "arrow-name")
 
 
 def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tuple[float, float] | None:
     """Return the projection of a point; None if it is outside, behind the camera or hidden by the ground."""
-    seen = camera.look(point[None])
-    if not seen[0, 2] > 0.0 or (ground is not None and ground.hides(camera.eye, point[None])[0]):
+    in_camera = camera.look(point[None])
+    if not in_camera[0, 2] > 0.0 or (ground is not None and ground.hides(camera.eye, point[None])[0]):
         return None
-    x, y = to_units(camera.project(seen))[0]
+    x, y = to_units(camera.project(in_camera))[0]
     return (float(x), float(y)) if 0.0 <= x <= WIDTH and 0.0 <= y <= HEIGHT else None
 
 

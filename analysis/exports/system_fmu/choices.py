@@ -12,8 +12,8 @@ from ....common.paths import names_fmu
 from ...options.option import SetValue
 from ...runtime.fmi.representations import TEXTS
 from ...runtime.ssp.archive import SystemArchive
-from ...runtime.ssp.given_values import parse_value
 from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.ssp.parameter_values import parse_value
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network, Node
 from ...runtime.system.options import SystemOptions
@@ -180,11 +180,11 @@ def _check(prepared: PreparedSystem) -> None:
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
     """Return the number (from 1) of a slot's default candidate: the system's own if possible, else the first."""
-    given = options.use.get(slot)
+    requested = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
-    wanted = candidate_name(given) if given else Path(component.source).stem if component else ""
-    return names.index(wanted) + 1 if wanted in names else 1
+    name = candidate_name(requested) if requested else Path(component.source).stem if component else ""
+    return names.index(name) + 1 if name in names else 1
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:

@@ -54,14 +54,16 @@ def _find_outputs(prepared: PreparedSystem, start: str) -> list[str]:
         if not link.is_parameter:
             readers.setdefault(link.source.name, []).append(link.target.name)
     queue = _follow(prepared, start)
-    seen = set(queue)
+    visited = set(queue)
     while queue:
         name = queue.pop()
         node = network.nodes.get(name)
         successors = list(readers.get(name, ()))
         if node is not None and node.component is not None and node.kind == "input":
             outputs = stepping.get(node.component, {}).items()
-            successors += [f"{node.component}.{output}" for output, given in outputs if node.variable in given]
-        queue += [each for each in successors if each not in seen]
-        seen.update(successors)
-    return [name for name in system_connectors(network, "output") if name in seen]
+            successors += [
+                f"{node.component}.{output}" for output, dependencies in outputs if node.variable in dependencies
+            ]
+        queue += [each for each in successors if each not in visited]
+        visited.update(successors)
+    return [name for name in system_connectors(network, "output") if name in visited]

@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 from ....common.errors import InputError
 from ....fmus_src.evidence.parameter_set import write_parameter_set
 from ...runtime.ssp.description import Element, SystemElement
-from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.ssp.parameter_values import ParameterValue
 from .choices import Preparation
 from .model import SystemModel
 from .variables import FmuVariable, Variables

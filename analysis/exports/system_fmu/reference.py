@@ -34,7 +34,7 @@ def record_reference(
     visible = [each for each in visible if each in program.layout.slots]
     prepared = program.prepared
     every = max(1, math.ceil(prepared.steps / MOST_ROWS))
-    with open_simulation(prepared, wanted=visible) as simulation:
+    with open_simulation(prepared, requested=visible) as simulation:
         flight = simulation.advance(-1, prepared.steps, every=every)
         signals = [each for each in visible if each in flight.signals]
         columns = [flight.time.tolist(), *(flight.signals[each].tolist() for each in signals)]

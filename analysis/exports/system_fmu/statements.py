@@ -180,11 +180,11 @@ def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], 
     An entry from NaN leaves unlisted values unchanged; without it an unlisted value is a failure.
     """
     tests, otherwise = [], f"FAIL({quoted(subject)}, {quoted('a mapping has no entry for its value')})"
-    for given, becomes in entries:
-        if math.isnan(given):
+    for entry, becomes in entries:
+        if math.isnan(entry):
             otherwise = f"{target} = {source};"
         else:
-            tests.append(f"if ({source} == {literal(given)}) {target} = {literal(becomes)};")
+            tests.append(f"if ({source} == {literal(entry)}) {target} = {literal(becomes)};")
     return [" else ".join([*tests, f"{{ {otherwise} }}"])]
 
 

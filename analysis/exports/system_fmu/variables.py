@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from ....fmus_src.export.description.system import EnumerationType, numbered_type
 from ...runtime.fmi.variable import ScalarVariable
-from ...runtime.ssp.given_values import ParameterValue, parse_value
 from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.ssp.parameter_values import ParameterValue, parse_value
 from ...runtime.system.network import Network, Node
 from .choices import check_type, parameter_chain
 from .dependence import fault_inputs
@@ -191,14 +191,14 @@ class Variables:
             if variable.causality == "parameter" and full in self.model.faulty:
                 path = self.model.members.new(f"set_{candidate.label}.{variable.name}")
                 self.tuned.append(TunedParameter(candidate, variable, path))
-            given = settings.variables.get((candidate.component, variable.name))
-            if given is not None:
-                self.starts[path] = given
+            assigned = settings.variables.get((candidate.component, variable.name))
+            if assigned is not None:
+                self.starts[path] = assigned
             if variable.causality == "parameter":
                 chain = parameter_chain(network, settings.nodes, full)
                 if chain:
-                    if given is not None:
-                        self.effective[f"{candidate.label}.{variable.name}"] = given
+                    if assigned is not None:
+                        self.effective[f"{candidate.label}.{variable.name}"] = assigned
                     self.passed.append(
                         PassedParameter(
                             path, candidate.member(variable.name).kind, tuple(chain), network, _is_tunable(variable)
@@ -214,7 +214,7 @@ class Variables:
                 _find_type(variable.type, enumeration),
                 path,
                 variable.description or "",
-                given if given is not None else _start(variable, candidate),
+                assigned if assigned is not None else _start(variable, candidate),
                 variable.unit if variable.type == "Real" else None,
                 variable.minimum,
                 variable.maximum,
@@ -259,11 +259,11 @@ class Variables:
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, SlotCandidate]]:
     """Yield each candidate once, with the first choice that contains it."""
-    seen: set[str] = set()
+    known: set[str] = set()
     for program in model.programs:
         for candidate in program.candidates:
-            if candidate.identifier not in seen:
-                seen.add(candidate.identifier)
+            if candidate.identifier not in known:
+                known.add(candidate.identifier)
                 yield program, candidate
 
 

@@ -119,8 +119,8 @@ def _convert_over_link(network: Network, link: NodeLink, number: int) -> list[st
     transformation = link.transformation
     if transformation.table:
         entries = numbers(network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])
-        given = f"given_{number}"
-        return [f"const double {given} = value;", *map_value(given, "value", entries, link.source.name)]
+        received = f"given_{number}"
+        return [f"const double {received} = value;", *map_value(received, "value", entries, link.source.name)]
     return [f"value = value * {literal(transformation.factor)} + {literal(transformation.offset)};"]
 
 

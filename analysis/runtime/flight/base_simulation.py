@@ -10,7 +10,7 @@ import numpy as np
 
 from ...options.fault import Fault
 from ..instances.instance import Log
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
 from .base_memory import BaseMemory
@@ -26,16 +26,16 @@ NOTHING = np.zeros((0, 0))  # no excitation
 class Choices(TypedDict, total=False):
     """Options of a simulation.
 
-    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``wanted`` the signals
-    to record (None: all outputs, connected inputs and system connectors); ``more`` further variables to record.
+    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``requested`` the
+    signals to record (None: all outputs, connected inputs and system connectors); ``additional`` further ones.
     ``faults`` act unless `set_faults` replaces them. ``excited`` names the connectors to which `advance` may add
     signals. With ``open_end``, `advance` may pass the stop time, and FMUs receive no stop time. ``log`` receives the
     FMUs' messages.
     """
 
     varied: Collection[str]
-    wanted: Collection[str] | None
-    more: Sequence[str]
+    requested: Collection[str] | None
+    additional: Sequence[str]
     faults: Sequence[Fault]
     excited: Sequence[str]
     open_end: bool
@@ -56,11 +56,11 @@ class BaseSimulation(ABC):
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         self.prepared = prepared
-        wanted, faults = choices.get("wanted"), tuple(choices.get("faults", ()))
+        requested, faults = choices.get("requested"), tuple(choices.get("faults", ()))
         self._selection = Selection(
             tuple(choices.get("varied", ())),
-            None if wanted is None else tuple(wanted),
-            tuple(choices.get("more", ())),
+            None if requested is None else tuple(requested),
+            tuple(choices.get("additional", ())),
             faults,
             tuple(choices.get("excited", ())),
             choices.get("open_end", False),

@@ -150,9 +150,9 @@ def describe_outcome(
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
         confirmed = parameters.words if fmi3 is None else fmi3.confirmed
-        given = parameters[parameters.keys[subject]]
+        assigned = parameters[parameters.keys[subject]]
         actual = parameters.value_in(buffers.read_back, confirmed, subject)
-        words = f"{component}.{variable}: was set to {given}, and its FMU has {actual} after initialisation"
+        words = f"{component}.{variable}: was set to {assigned}, and its FMU has {actual} after initialisation"
         return status, " | ".join([f"{words}: the FMU did not accept the value", *instances[component].messages])
     if code == codes.FAILED:
         component = list(instances)[subject]

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from .base_simulation import BaseSimulation
 from .recorder import FlightRecorder

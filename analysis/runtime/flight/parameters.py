@@ -11,7 +11,7 @@ import numpy as np
 from ....common.errors import InputError
 from ..fmi.variable import ScalarVariable
 from ..loop import arrays
-from ..ssp.given_values import ParameterValue, parse_value
+from ..ssp.parameter_values import ParameterValue, parse_value
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
 from ..system.passing.settings import SystemSettings
@@ -52,16 +52,16 @@ class Parameters:
         self.types: dict[Key, str] = {}
         self.references: list[int] = []
         self.ranges = np.zeros((len(network.fmus), 4, 4), dtype=np.int64)
-        given: dict[str, list[str]] = {name: [] for name in network.fmus}
+        assigned: dict[str, list[str]] = {name: [] for name in network.fmus}
         for component, name in settings.variables:
-            given[component].append(name)
+            assigned[component].append(name)
         for index, (component, fmu) in enumerate(network.fmus.items()):
             if fmu.version == 3:
-                self.transfers[index] = self._place_transfers(component, fmu, given[component])
+                self.transfers[index] = self._place_transfers(component, fmu, assigned[component])
                 continue
             grades = {
                 name: self._classify(component, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
-                for name in given[component]
+                for name in assigned[component]
             }
             for kind in range(4):
                 mine = [name for name in grades if TYPE_KIND[fmu.variables[name].type] == kind]
@@ -86,11 +86,11 @@ class Parameters:
             if key not in settings.variables:
                 self[key] = self._start(*key)
 
-    def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
+    def _place_transfers(self, component: str, fmu: Fmu, assigned: list[str]) -> ComponentTransfers:
         """Return the transfers of a component of FMI 3.0, in which arrays are set as a whole."""
         transfers = ComponentTransfers()
         arrays_of: dict[str, list[ScalarVariable]] = {}
-        for variable in select_arrays(fmu.variables.values(), set(given)):
+        for variable in select_arrays(fmu.variables.values(), set(assigned)):
             arrays_of.setdefault(variable.array or variable.name, []).append(variable)
         for elements in arrays_of.values():
             first, dtype = len(self.keys), elements[0].representation.dtype

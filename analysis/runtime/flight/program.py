@@ -56,16 +56,16 @@ def build_program(
     prepared: PreparedSystem,
     settings: SystemSettings,
     instances: Mapping[str, Callee],
-    wanted: Collection[str] | None,
+    requested: Collection[str] | None,
     injections: Sequence[Injection],
     additional: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
     """Return the loop's arrays, those for FMI 3.0 or None, the writer of instructions, and the layout.
 
-    ``wanted`` names the signals to record (None: all exchanged ones), ``additional`` further ones. Outputs are read
+    ``requested`` names the signals to record (None: all exchanged ones), ``additional`` further ones. Outputs are read
     only if they are connected or recorded, other variables only if they are named.
     """
-    builder = _Builder(prepared.network, settings, wanted, injections, additional)
+    builder = _Builder(prepared.network, settings, requested, injections, additional)
     program, instructions = builder.program(prepared, instances)
     return program, builder.fmi3(instances), instructions, builder.layout()
 
@@ -73,12 +73,12 @@ def build_program(
 def make_layout(
     network: Network,
     settings: SystemSettings,
-    wanted: Collection[str] | None = None,
+    requested: Collection[str] | None = None,
     injections: Sequence[Injection] = (),
     additional: Collection[str] = (),
 ) -> Layout:
     """Return the layout of a simulation without building its program; arguments as for `build_program`."""
-    return _Builder(network, settings, wanted, injections, additional).layout()
+    return _Builder(network, settings, requested, injections, additional).layout()
 
 
 class _Builder:
@@ -86,7 +86,7 @@ class _Builder:
         self,
         network: Network,
         settings: SystemSettings,
-        wanted: Collection[str] | None,
+        requested: Collection[str] | None,
         injections: Sequence[Injection],
         additional: Collection[str],
     ) -> None:
@@ -95,7 +95,7 @@ class _Builder:
         self.names = list(network.fmus)
         self.signals = Slots(settings)
         self.slots = self.signals.numbers
-        self.exchanged = Exchanged(network, wanted, additional, injections)
+        self.exchanged = Exchanged(network, requested, additional, injections)
         self.table = TransferTable()
         self.component_slots: dict[int, ComponentSlots] = {}  # by components of FMI 2.0
         self.transfers: dict[int, ComponentTransfers] = {}  # by components of FMI 3.0

@@ -19,8 +19,8 @@ from ....common.percent import short_percent
 from ....common.visible import quote_formula
 from ....fmus_src.roles import STATUS
 from ...options.fault import Fault
-from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
+from ..ssp.parameter_values import ParameterValue
 from ..ssp.types import WHOLE
 from ..system.arrays.axes import names_of_axes
 from ..system.inputs import DrivenInput, InputFacts

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from ....common.errors import InputError, suggestion
 from ...options.fault import Fault
 from ..fmi.representations import TEXTS
-from ..ssp.given_values import parse_value
 from ..ssp.names import elements
+from ..ssp.parameter_values import parse_value
 from ..system.checks import check_fault
 from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
@@ -27,13 +27,13 @@ TIME_MARGIN = 1e-6  # fraction of a step: communication points, start + n h, are
 class Selection:
     """Selection of variable parameters and recorded signals.
 
-    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``wanted`` the signals
-    to record (None: all outputs, connected inputs and system connectors); ``additional`` further variables to record;
+    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``requested`` the
+    signals to record (None: all outputs, connected inputs and system connectors); ``additional`` further ones;
     ``excited`` the connectors to which `advance` may add signals. With ``open_end``, `advance` may pass the stop time.
     """
 
     varied: tuple[str, ...] = ()
-    wanted: tuple[str, ...] | None = None
+    requested: tuple[str, ...] | None = None
     additional: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
     excited: tuple[str, ...] = ()
@@ -71,11 +71,11 @@ class Selection:
 
     def signal_names(self, layout: Layout, file: str) -> list[str]:
         """Return the names of the recorded signals in the order of slots. Raises InputError for an unknown name."""
-        named = {*(self.wanted or ()), *self.additional}
+        named = {*(self.requested or ()), *self.additional}
         for name in named:
             if name not in layout.slots:
                 raise InputError(file, name, "no such signal", "name a variable as component.variable")
-        return [name for name in layout.slots if (self.wanted is None and name not in layout.unfed) or name in named]
+        return [name for name in layout.slots if (self.requested is None and name not in layout.unfed) or name in named]
 
 
 def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:

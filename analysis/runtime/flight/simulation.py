@@ -17,7 +17,7 @@ from ..fused.refusals import can_fuse, check_fused
 from ..instances.instance import Instance, instantiate
 from ..loop import arrays, codes
 from ..loop.loop import Loop
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from ..system.namesakes.namesakes import note_loaded
 from ..system.passing.flight_table import FlightTable
 from ..system.prepared import PreparedSystem
@@ -62,7 +62,7 @@ class Simulation(BaseSimulation):
             self.instances[name] = instantiate(fmu, name, self._log, uses_events=uses_events)
         injections = self._selection.injections(prepared.step)
         self.program, self.fmi3, self._instructions, self.layout = build_program(
-            prepared, self.settings, self.instances, self._selection.wanted, injections, self._selection.additional
+            prepared, self.settings, self.instances, self._selection.requested, injections, self._selection.additional
         )
         self.set_faults(self._faults)
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
@@ -87,9 +87,9 @@ class Simulation(BaseSimulation):
         if prepared.options.chosen["flavour"] != FUSED:
             return 0
         check_fused(prepared)
-        return fuse(self.instances, self.program, self._recorded.tolist(), self._is_wanted)
+        return fuse(self.instances, self.program, self._recorded.tolist(), self._is_needed)
 
-    def _is_wanted(self) -> bool:
+    def _is_needed(self) -> bool:
         return not self.recorder.halt[0]
 
     def fuse(self) -> None:

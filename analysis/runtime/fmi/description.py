@@ -119,12 +119,12 @@ def _starts(variable: etree._Element) -> list[str]:
 def _check_references(root: etree._Element, variables: list[etree._Element], label: str) -> None:
     """Reject undefined value references in lists of dependencies, states or sizes."""
     known = {int(each.get("valueReference", "0")): each for each in variables}
-    wanted = [(each, "valueReference") for each in root.iterfind("ModelVariables/*/Dimension")]
-    wanted += [(each, "derivative") for each in variables]
+    references = [(each, "valueReference") for each in root.iterfind("ModelVariables/*/Dimension")]
+    references += [(each, "derivative") for each in variables]
     for tag in SCALAR_REFERENCES:
         for each in root.iterfind(f"ModelStructure/{tag}"):
-            wanted += [(each, "valueReference"), (each, "dependencies")]
-    for element, name in wanted:
+            references += [(each, "valueReference"), (each, "dependencies")]
+    for element, name in references:
         for text in element.get(name, "").split():
             if not (text.isascii() and text.isdigit() and len(text) < 11 and int(text) in known):
                 raise InputError(label, f"{_line_of(element)}, {name}", f"{text[:20]} is not a value reference", FIX)

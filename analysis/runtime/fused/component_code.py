@@ -75,7 +75,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
     return ComponentCode(prefix, _rename(text, prefix), frozenset(headers))
 
 
-def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], seen: set[str]) -> str:
+def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], included: set[str]) -> str:
     """Return the text with each of its headers inserted once; collect standard ones in ``headers``."""
 
     def put(include: re.Match[str]) -> str:
@@ -83,12 +83,12 @@ def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str
         if file is None:
             headers.add(include[1])
             return ""
-        if file in seen:
+        if file in included:
             return ""
-        seen.add(file)
+        included.add(file)
         if file not in sources:
             raise InputError(label, f"sources/{file}", "is missing", "export the FMU again")
-        return _include(sources[file], sources, label, headers, seen)
+        return _include(sources[file], sources, label, headers, included)
 
     return INCLUDE.sub(put, text)
 

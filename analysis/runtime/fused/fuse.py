@@ -40,12 +40,12 @@ def fuse(
     instances: Mapping[str, Instance],
     program: arrays.Program,
     recorded: Iterable[int],
-    is_wanted: Callable[[], bool] = lambda: True,
+    is_needed: Callable[[], bool] = lambda: True,
 ) -> int:
     """Return the address of a function that executes the steps of ``program`` and records these slots.
 
     It contains the C code of the native FMUs among ``instances``; other FMUs are called through FMI. The library is
-    cached by its content. Compilation is cancelled once ``is_wanted`` returns False. Raises InputError if there is no
+    cached by its content. Compilation is cancelled once ``is_needed`` returns False. Raises InputError if there is no
     compiler, if it fails or changes results, if no library can be written, if the C code of an FMU is from another
     build, or if the steps repeat too late.
     """
@@ -55,7 +55,7 @@ def fuse(
             f"the steps repeat after {len(program.phases) - 1} communication steps only, too many for one function"
         )
         raise InputError("`flavour`", FUSED, problem, "simulate it `native`")
-    library = _load(_compile(write_unit(program, recorded, components), is_wanted))
+    library = _load(_compile(write_unit(program, recorded, components), is_needed))
     _check_arithmetic(library)
     for number, instance in enumerate(instances.values()):
         if number in components:
@@ -93,12 +93,12 @@ class _Codes:
 _CODES = _Codes()
 
 
-def _compile(text: str, is_wanted: Callable[[], bool]) -> Path:
+def _compile(text: str, is_needed: Callable[[], bool]) -> Path:
     platform, cached = local_platform(), CACHE / "fused"
     try:
         if platform is None:
             raise CompilerMissing("no platform of FMI 2.0")
-        (file,) = library_files({FILE: text.encode()}, FILE, platform, cached, flags=FLAGS, is_wanted=is_wanted)
+        (file,) = library_files({FILE: text.encode()}, FILE, platform, cached, flags=FLAGS, is_needed=is_needed)
     except CompilerMissing as error:
         raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error
     except CompilationFailed as error:

@@ -119,8 +119,8 @@ def _get_whole(to: Statements, row: Instruction) -> list[str]:
 
 
 def _set_whole(to: Statements, row: Instruction) -> list[str]:
-    given = [f"WHOLE({slot}, {row.number});" for slot in range(row.first, row.first + row.size)]
-    return [*given, to.call(row, "int32_t", "whole"), to.check_status(row)]
+    stored = [f"WHOLE({slot}, {row.number});" for slot in range(row.first, row.first + row.size)]
+    return [*stored, to.call(row, "int32_t", "whole"), to.check_status(row)]
 
 
 def _step(to: Statements, row: Instruction) -> list[str]:
@@ -162,11 +162,11 @@ def _map(to: Statements, row: Instruction) -> list[str]:
         source, target = int(program.source[number]), int(program.target[number])
         otherwise = f"END(UNMAPPED, {source}, {row.number});"
         tests = []
-        for given, becomes in table_entries(program, number):
-            if np.isnan(given):
+        for entry, becomes in table_entries(program, number):
+            if np.isnan(entry):
                 otherwise = f"values[{target}] = values[{source}];"
             else:
-                tests.append(f"if (values[{source}] == {literal(given)}) values[{target}] = {literal(becomes)};")
+                tests.append(f"if (values[{source}] == {literal(entry)}) values[{target}] = {literal(becomes)};")
         lines.append(" else ".join([*tests, otherwise]))
     return lines
 

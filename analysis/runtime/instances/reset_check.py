@@ -152,14 +152,14 @@ def _make_value_sets(fmu: Fmu) -> list[dict[str, Number]]:
 
     Integers are changed only if there is no Real parameter: they may be sizes, and harmful.
     """
-    given = [
+    settable = [
         variable
         for variable in fmu.variables.values()
         if variable.causality in ("parameter", "input") and variable.variability != "constant"
     ]
-    has_reals = any(variable.type == "Real" and variable.causality == "parameter" for variable in given)
+    has_reals = any(variable.type == "Real" and variable.causality == "parameter" for variable in settable)
     changed = {}
-    for variable in given:
+    for variable in settable:
         if variable.type == "Real" or (variable.type in KINDS and not has_reals):
             value = _choose_other_value(variable)
             if value is not None:

@@ -16,7 +16,7 @@ from ....common.errors import InputError
 from ...options.fault import Fault
 from ..flight.selection import Selection
 from ..instances.renewal import ResetVerdict
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from .restriction import ProcessLimits
 
 # Tasks of children

@@ -20,7 +20,7 @@ from ..flight.program import make_layout
 from ..flight.recorder import FmuActivity
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
 from .connection import ChildEndedError, ServerEndedError
@@ -44,7 +44,7 @@ class ProcessSimulation(BaseSimulation):
         super().__init__(prepared, **choices)
         injections = self._selection.injections(prepared.step)
         self.layout = make_layout(
-            prepared.network, self.settings, self._selection.wanted, injections, self._selection.additional
+            prepared.network, self.settings, self._selection.requested, injections, self._selection.additional
         )
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}

@@ -15,7 +15,7 @@ from ..flight.recorder import FmuActivity, rows_between
 from ..flight.selection import Selection
 from ..instances.instance import Log
 from ..instances.renewal import ResetVerdict
-from ..ssp.given_values import ParameterValue
+from ..ssp.parameter_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
 from .children import begin_child

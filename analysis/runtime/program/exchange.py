@@ -17,12 +17,12 @@ from ..system.schedule import origin
 class Roles:
     """Uses of the variables of a component; all elements of an array of FMI 3.0 have the same use.
 
-    ``given`` are inputs, and parameters that change during simulation; ``outputs`` also include other variables
+    ``inputs`` are inputs, and parameters that change during simulation; ``outputs`` also include other variables
     connected as sources; ``recorded`` are further variables to read. ``uses_events``: event mode of FMI 3.0 is used,
     because the FMU supports it and has a discrete input.
     """
 
-    given: Sequence[ScalarVariable]
+    inputs: Sequence[ScalarVariable]
     outputs: Sequence[ScalarVariable]
     recorded: Sequence[ScalarVariable]
     uses_events: bool
@@ -64,14 +64,14 @@ class Exchange:
         exchanged = [
             f"{component}.{each.name}"
             for component, roles in self.roles.items()
-            for each in (*roles.given, *roles.outputs)
+            for each in (*roles.inputs, *roles.outputs)
             if each.type not in TEXTS and (each in roles.outputs or self._is_changing(component, each))
         ]
         self.recorded = [*exchanged, *self.connectors] if selected is None else list(selected)
 
     def _find_roles(self, component: str) -> Roles:
         fmu = self._network.fmus[component]
-        given: list[ScalarVariable] = []
+        inputs: list[ScalarVariable] = []
         outputs: list[ScalarVariable] = []
         recorded: list[ScalarVariable] = []
         for array in arrays_of(fmu.variables.values()):
@@ -79,14 +79,14 @@ class Exchange:
             is_output = first.causality == "output" or bool(names & self._unusual)
             is_input = first.causality == "input" and bool(names & self._changing)
             if (is_input and not is_output) or (first.is_tunable and names & self._tuned):
-                given += array
+                inputs += array
             elif is_output and self._is_fetched(first, names):
                 outputs += array
             elif names & self._selected:
                 recorded += array
-        discrete = any(each.causality == "input" and each.variability == "discrete" for each in given)
+        discrete = any(each.causality == "input" and each.variability == "discrete" for each in inputs)
         has_events = fmu.version == 3 and bool(fmu.description.coSimulation.hasEventMode)
-        return Roles(given, outputs, recorded, has_events and discrete)
+        return Roles(inputs, outputs, recorded, has_events and discrete)
 
     def _is_changing(self, component: str, variable: ScalarVariable) -> bool:
         """Return True if a variable itself is driven, rather than set with other elements of its array."""

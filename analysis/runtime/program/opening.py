@@ -51,7 +51,7 @@ def fly_reference(
 
 def _component(system: PreparedSystem, exchange: Exchange, instance: Instance) -> ComponentInstance:
     name, roles = instance.name, exchange.roles[instance.name]
-    tuned = {f"{name}.{each.name}" for each in roles.given if each.is_tunable}
+    tuned = {f"{name}.{each.name}" for each in roles.inputs if each.is_tunable}
     starts = find_starts(system.network, system.settings, name, tuned)
     if instance.fmu.version == 2:
         return Fmi2Component(name, instance.fmu, instance.slave, starts)

@@ -32,7 +32,7 @@ class Signals:
         self._starts = {  # values of inputs before their source is known, and of parameters without a change
             f"{component}.{each.name}": start_of(system.settings, component, each)
             for component, roles in exchange.roles.items()
-            for each in roles.given
+            for each in roles.inputs
         }
         self.values: Samples = dict(self._starts)
         self.times: list[float] = []
@@ -52,7 +52,7 @@ class Signals:
 
     def inputs(self, component: str, known: Collection[str] | None = None) -> Samples:
         """Return the inputs of a component; if ``known`` is passed, inputs from other components have start values."""
-        return {each.name: self._input(component, each, known) for each in self._exchange.roles[component].given}
+        return {each.name: self._input(component, each, known) for each in self._exchange.roles[component].inputs}
 
     def outputs(self, component: str, *, settled: bool) -> list[str]:
         """Return the names of a component's outputs and, once it is ``settled``, of its other recorded variables."""
@@ -70,7 +70,7 @@ class Signals:
     def record(self, *, carries: bool = False) -> None:
         """Add a row; with ``carries``, connected inputs are updated to this time although they are not set."""
         for component, roles in self._exchange.roles.items() if carries else ():
-            for each in roles.given:
+            for each in roles.inputs:
                 if f"{component}.{each.name}" in self._network.driver:
                     self._input(component, each, None)
         for name in self._exchange.connectors:

@@ -147,10 +147,10 @@ def read_transformation(element: etree._Element) -> Transformation:
 def check_type(transformation: Transformation, type_name: str, file: str, element: str) -> None:
     """Reject a transformation that does not apply to values of the type."""
     if transformation != IDENTITY and type_name not in VALUE_TYPES[transformation.kind]:
-        wanted = VALUE_TYPES[transformation.kind][0]
+        required = VALUE_TYPES[transformation.kind][0]
         raise InputError(
             file,
             element,
             f"{transformation.kind} on a value of type {type_name}",
-            f"use it between {wanted} connectors",
+            f"use it between {required} connectors",
         )

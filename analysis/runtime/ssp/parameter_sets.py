@@ -13,7 +13,7 @@ from .conversions import Transformation, Unit, check_type, read_transformation, 
 from .description import Binding
 from .dimensions import Shape, element_name, indices
 from .documents import check_schema, child, children, read_document, signatures, tag
-from .given_values import ParameterValue, read_values
+from .parameter_values import ParameterValue, read_values
 from .types import RUNTIME_TYPES, runtime_type
 
 

@@ -14,10 +14,10 @@ from ..ssp.archive import SystemArchive
 from ..ssp.conversions import Transformation
 from ..ssp.description import Binding, Component, SystemElement
 from ..ssp.dimensions import element_names, text_of
-from ..ssp.given_values import ParameterValue, parse_value
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..ssp.parameter_sets import Assignment, Notes, read_binding
+from ..ssp.parameter_values import ParameterValue, parse_value
 from ..ssp.types import WHOLE
 from .network import Network, Node
 from .options import SystemOptions
@@ -52,7 +52,7 @@ def collect_settings(
                     _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
         for assignment in _bound(network, settings, archive, system.bindings, path, notes):
             _apply(network, settings, path, "", assignment, allow_unmatched)
-    settings.chosen = [part for given in assignments for part in _elements(network, given)]
+    settings.chosen = [part for each in assignments for part in _elements(network, each)]
     for assignment in settings.chosen:
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
@@ -206,21 +206,21 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 
 def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """Return the assignment's value converted to its target's type and unit, and transformed."""
-    value, given = assignment.value, assignment.type_name
+    value, type_of_value = assignment.value, assignment.type_name
     if type_name == "Binary":
         raise InputError(
             assignment.file, assignment.where, "a value of type Binary cannot be set", "connect it with a Binary output"
         )
-    if given == TEXT:
-        given = type_name
+    if type_of_value == TEXT:
+        type_of_value = type_name
         value = _parse(assignment, type_name, node)
-    if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
-        given, value = "Real", float(value)
-    if given in ("String", "Integer") and type_name == "Enumeration":
-        given = "Enumeration"
-    if given != type_name:
+    if type_of_value == "Integer" and type_name == "Real" and not isinstance(value, bool):
+        type_of_value, value = "Real", float(value)
+    if type_of_value in ("String", "Integer") and type_name == "Enumeration":
+        type_of_value = "Enumeration"
+    if type_of_value != type_name:
         remedy = f"give {'an' if type_name in ('Enumeration', 'Integer') else 'a'} {type_name}"
-        raise InputError(assignment.file, assignment.where, f"is {given}, the variable is {type_name}", remedy)
+        raise InputError(assignment.file, assignment.where, f"is {type_of_value}, the variable is {type_name}", remedy)
     transformation = assignment.transformation or Transformation()
     if type_name == "Real":
         if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
@@ -252,14 +252,14 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
 
 def _map_value(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
     """Return the assignment's value after its mapping, which for an enumeration may use the items' numbers."""
-    given, where = assignment.value, (assignment.file, assignment.where)
+    value, where = assignment.value, (assignment.file, assignment.where)
     if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
-        type_name, given = "Integer", node.enumeration.get(str(given), given)
+        type_name, value = "Integer", node.enumeration.get(str(value), value)
     table = [[parse_value(text, type_name, *where) for text in entry] for entry in transformation.table]
-    targets = [target for source, target in table if source == given]
+    targets = [target for source, target in table if source == value]
     if not targets and not transformation.is_partial:
-        raise InputError(*where, f"the mapping has no entry for {given}", "add one")
-    return targets[-1] if targets else given
+        raise InputError(*where, f"the mapping has no entry for {value}", "add one")
+    return targets[-1] if targets else value
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:

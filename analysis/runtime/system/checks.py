@@ -38,12 +38,12 @@ def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
 
 def _iterate_fitting_fmus(component: Component) -> Iterator[str]:
     """Yield the names of the FMUs that have all connectors of a component."""
-    wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}
+    required = {(connector.name, connector.kind) for connector in component.connectors.values()}
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
         if path is not None:
             variables = variables_of(read_model_description(str(path), validate=False))
-            if wanted <= {(variable.name, variable.causality) for variable in variables.values()}:
+            if required <= {(variable.name, variable.causality) for variable in variables.values()}:
                 yield name
 
 
@@ -58,19 +58,19 @@ def check_shared(network: Network, settings: SystemSettings) -> None:
         name = f"{component}.{variable}"
         if name in last:
             readers = {link.target.name for link in network.driver.values() if link.source.name == shared} | {name}
-            given = settings.variables[component, variable]
-            problem = f"{value} is not {given}, which {shared} of the system gives to {', '.join(sorted(readers))}"
+            actual = settings.variables[component, variable]
+            problem = f"{value} is not {actual}, which {shared} of the system gives to {', '.join(sorted(readers))}"
             raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead, since both must agree")
 
 
 def check_aliases(network: Network) -> None:
     """Reject an input of FMI 3.0 that is set under two of its names. Raises InputError."""
     for component, fmu in network.fmus.items():
-        given: dict[tuple[int, int], str] = {}
+        names: dict[tuple[int, int], str] = {}
         for name, variable in fmu.variables.items() if fmu.version == 3 else ():
             full = f"{component}.{name}"
             if variable.causality == "input" and (full in network.driver or full in network.driven):
-                first = given.setdefault((variable.reference, variable.index), full)
+                first = names.setdefault((variable.reference, variable.index), full)
                 if first != full:
                     problem = f"is another name of {first}, which is also connected or driven"
                     raise InputError(network.file, full, problem, "connect one of them")

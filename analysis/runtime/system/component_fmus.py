@@ -14,7 +14,7 @@ from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_key, parameters_key, read_fmu, use_key
 from ..ssp.description import Component, SystemDescription
 from ..ssp.parameter_sets import Assignment, read_parameter_file
-from .arrays.sizes import Sizes, given_values
+from .arrays.sizes import Sizes, assigned_values
 from .assignments import single_value
 from .checks import missing_fmu, unfit
 from .fmu import Fmu, load_fmu
@@ -92,14 +92,14 @@ class ComponentFmus:
         if not fmu.structural_parameters:
             return fmu
         names = fmu.structural_parameters
-        given = structural_sizes(self.description, self.archive, name, names, self.assignments)
-        return fmu.with_sizes(given | self.sizes.connected(name, names))
+        structural = structural_sizes(self.description, self.archive, name, names, self.assignments)
+        return fmu.with_sizes(structural | self.sizes.connected(name, names))
 
     @cached_property
     def sizes(self) -> Sizes:
         """Sizes of dimensions, for the description at first use."""
         return Sizes(
-            self.description, lambda: given_values(self.description, self.archive, self.assignments), self.load
+            self.description, lambda: assigned_values(self.description, self.archive, self.assignments), self.load
         )
 
     @cached_property

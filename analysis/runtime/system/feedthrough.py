@@ -147,7 +147,7 @@ def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, 
 
 def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: dict[str, list[str]]) -> bool:
     """Return True if an input affects itself at the same communication point."""
-    seen: set[str] = set()
+    visited: set[str] = set()
     queue = [name]
     while queue:
         current = queue.pop()
@@ -158,6 +158,6 @@ def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: 
             successors += [f"{node.component}.{output}" for output, inputs in outputs if node.variable in inputs]
         if name in successors:
             return True
-        queue += [other for other in successors if other not in seen]
-        seen.update(successors)
+        queue += [other for other in successors if other not in visited]
+        visited.update(successors)
     return False

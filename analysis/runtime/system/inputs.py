@@ -49,9 +49,9 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
         connecting = "drive" if names_fmu(network.file) else "connect"
         driving = " by `input`" if names_fmu(network.file) else ""
         remedy = f"{connecting} {'it' if one else 'them'}{driving}, give a value: {setting}, or `open_inputs` start"
-        given = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
-        if given is not None:
-            remedy = f"add {given} to the mapping, which omits it; or {remedy}"
+        assigned = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
+        if assigned is not None:
+            remedy = f"add {assigned} to the mapping, which omits it; or {remedy}"
         raise InputError(network.file, ", ".join(node.where for node in open_inputs), problem, remedy)
     without = {node.name for node in open_inputs}
     readers: dict[str, list[NodeLink]] = {}
@@ -109,8 +109,8 @@ def check_signals(network: Network, settings: SystemSettings) -> None:
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"
             if variable.causality == "input" and full not in network.nodes and full not in network.driven:
-                given = settings.variables.get((component, name))
-                during = f"keeps {variable.start}" if given is None else f"is {given} throughout"
+                assigned = settings.variables.get((component, name))
+                during = f"keeps {variable.start}" if assigned is None else f"is {assigned} throughout"
                 network.notes.append(f"{component}.{name}: input not declared in the description, {during}")
 
 

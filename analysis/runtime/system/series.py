@@ -45,15 +45,15 @@ class InputSeries:
         return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
 
 
-Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike] | Any
+SeriesSource = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike] | Any
 
 
-def read_series(given: Given) -> InputSeries:
+def read_series(source: SeriesSource) -> InputSeries:
     """Read inputs over time from a CSV file, a structured array, or columns by name that include ``time``.
 
     Raises InputError, with line and column, unless it is a table of numbers with a time that never decreases.
     """
-    series = _of_file(os.fspath(given)) if isinstance(given, str | os.PathLike) else _of_arrays(given)
+    series = _of_file(os.fspath(source)) if isinstance(source, str | os.PathLike) else _of_arrays(source)
     if not series.time.size:
         raise InputError(series.file, "", "no samples", "give a line of numbers for each time")
     if not series.columns:
@@ -118,15 +118,15 @@ def _number(file: str, line: int, name: str, text: str) -> float:
         raise InputError(file, f"line {line}, column {name}", problem, "give a number, or true or false") from error
 
 
-def _of_arrays(given: npt.NDArray[Any] | Mapping[str, npt.ArrayLike]) -> InputSeries:
+def _of_arrays(arrays: npt.NDArray[Any] | Mapping[str, npt.ArrayLike]) -> InputSeries:
     file = "input"
-    names = list(given.dtype.names or ()) if isinstance(given, np.ndarray) else list(given)
+    names = list(arrays.dtype.names or ()) if isinstance(arrays, np.ndarray) else list(arrays)
     if TIME not in names:
         raise InputError(file, TIME, "no such column", "give an array with named columns, time and inputs")
     columns: dict[str, np.ndarray] = {}
     for name in names:
         try:
-            columns[name] = np.array(given[name], dtype=np.float64)
+            columns[name] = np.array(arrays[name], dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InputError(file, f"column {name}", f"not numbers: {error}", "give an array of numbers") from error
         if columns[name].ndim != 1 or columns[name].size != columns[names[0]].size:

@@ -28,8 +28,8 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if chosen["step"] is None and description.varies is not None:
         line = f"step (line {description.varies})"
         raise InputError(network.file, line, "a variable step, which is not supported", "give a fixed step with `step`")
-    given = chosen["step"] if chosen["step"] is not None else _read_step(network)
-    step = given if given is not None else _shortest_proposal(network)
+    declared = chosen["step"] if chosen["step"] is not None else _read_step(network)
+    step = declared if declared is not None else _shortest_proposal(network)
     if step is None:
         raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
     if not 0.0 < step < float("inf"):

@@ -75,17 +75,17 @@ def _turn(difference: Response, low: float, high: float, include: list[float]) -
     return float(np.sum(steps))
 
 
-def _poles_at_one(response: Response, difference: Response, low: float, given: int | None) -> int:
+def _poles_at_one(response: Response, difference: Response, low: float, declared: int | None) -> int:
     """Return the number of poles of 1 + L at z = 1, checked by the slope of its gain from ``low`` to twice that."""
     pair = np.array([low, 2.0 * low])
     slope = _slope(difference(pair))
-    number = round(-slope) if given is None else given
+    number = round(-slope) if declared is None else declared
     if abs(slope + number) > _NOT_A_SLOPE or number < 0:
         raise ValueError(
             f"at {low:g} rad/s the gain of 1 + L has the slope {slope:.2f}, which is not that of "
-            f"{'a number of' if given is None else given} poles at z = 1; start lower"
+            f"{'a number of' if declared is None else declared} poles at z = 1; start lower"
         )
-    if given is None and number == 0:
+    if declared is None and number == 0:
         size = np.asarray(response(pair))
         # L still rises towards low frequency but is negligible in 1 + L
         if _slope(size if size.ndim == 1 else np.linalg.norm(size, axis=(1, 2))) < -1.0 + _NOT_A_SLOPE:

@@ -112,10 +112,10 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
     """Solve for real N: frequencies from the phase of L alone, then amplitudes from the size of N."""
     balances = []
     for frequency, value in loop.critical(1.0 + 0j):
-        wanted = 1.0 / abs(value)
+        target = 1.0 / abs(value)
 
-        def excess(a: float, wanted: float = wanted) -> float:
-            return loop.gain(a).real - wanted
+        def excess(a: float, target: float = target) -> float:
+            return loop.gain(a).real - target
 
         grid = loop.amplitudes(abs(value), abs(value))
         if not len(grid):
@@ -131,10 +131,10 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
             )
             for s, turns in ((1.0, rising[:-1] & ~rising[1:]), (-1.0, ~rising[:-1] & rising[1:]))
             for i in np.flatnonzero(turns)
-            if s * (gains[i + 1] - wanted) < 0.0
+            if s * (gains[i + 1] - target) < 0.0
         ]
         grid = np.unique(np.append(grid, tops))
-        below = loop.gains(grid).real < wanted
+        below = loop.gains(grid).real < target
         for i in np.flatnonzero(below[1:] != below[:-1]):
             balances.append((float(brentq(excess, grid[i], grid[i + 1], rtol=1e-13)), frequency))
     return balances

@@ -51,8 +51,8 @@ def multisine(
     candidates = np.arange(1, highest_line + 1, 2)
     if per_decade is not None:
         highest_odd = float(candidates[-1])
-        wanted = np.geomspace(1.0, highest_odd, max(2, 1 + round(per_decade * np.log10(highest_odd))))
-        candidates = np.unique(2 * np.round((wanted - 1.0) / 2.0).astype(int) + 1)
+        desired = np.geomspace(1.0, highest_odd, max(2, 1 + round(per_decade * np.log10(highest_odd))))
+        candidates = np.unique(2 * np.round((desired - 1.0) / 2.0).astype(int) + 1)
     random = np.random.default_rng(seed)
     groups = np.arange(1, len(candidates) - _GROUP + 1, _GROUP)  # from the second candidate on, whole groups only
     lines = np.delete(candidates, groups + random.integers(_GROUP, size=len(groups)))

@@ -58,10 +58,10 @@ def refine(
     gain = phase = np.inf
     rounds = 0
     while rounds < ROUNDS and not (gain < GAIN_STAYS and phase < PHASE_STAYS):
-        wanted = [frequency for frequency in _decisive(classical, robust) if _is_new(curve, frequency)]
-        if not wanted:
+        requested = [frequency for frequency in _decisive(classical, robust) if _is_new(curve, frequency)]
+        if not requested:
             return Refined(curve, rounds, 0.0, 0.0)
-        for frequency in wanted:
+        for frequency in requested:
             if _is_new(curve, frequency):  # with regard to the lines of this round, too
                 curve = _with_line(curve, *measure(frequency))
         before = classical

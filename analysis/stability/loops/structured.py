@@ -142,11 +142,11 @@ def _expansion(
     s = sizes / sizes[:, :1]
     squares = s * s
     # U* E U and V* E V for every channel: (n, channel, m, m)
-    seen = left.conj()[:, :, :, None] * left[:, :, None, :]
+    left_products = left.conj()[:, :, :, None] * left[:, :, None, :]
     back = right.swapaxes(1, 2)
     moved = back[:, :, :, None] * back.conj()[:, :, None, :]
-    seen = (s[:, :, None] * s[:, None, :])[:, None] * seen
-    first = 2.0 * seen - (squares[:, :, None] + squares[:, None, :])[:, None] * moved  # dA, in the basis V
+    left_products = (s[:, :, None] * s[:, None, :])[:, None] * left_products
+    first = 2.0 * left_products - (squares[:, :, None] + squares[:, None, :])[:, None] * moved  # dA, in the basis V
 
     order = half[:, None, None]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -170,7 +170,9 @@ def _expansion(
 
     weighted = weight[:, None, :, None]
     hessian = traces(divided[:, None] * first, first)
-    hessian -= 4.0 * traces(weighted * seen, moved) + 2.0 * traces(weighted * moved, first)
-    hessian[:, diagonal, diagonal] += 4.0 * np.sum(weight[:, None] * seen[:, :, diagonal, diagonal].real, axis=2)
+    hessian -= 4.0 * traces(weighted * left_products, moved) + 2.0 * traces(weighted * moved, first)
+    hessian[:, diagonal, diagonal] += 4.0 * np.sum(
+        weight[:, None] * left_products[:, :, diagonal, diagonal].real, axis=2
+    )
     hessian = 0.5 * hessian / total[:, :, None] - 0.5 * order * gradient[:, :, None] * gradient[:, None, :]
     return value, 0.5 * gradient, hessian, sizes

@@ -14,7 +14,7 @@ from ....fmus_src.roles import SAMPLE_PERIOD
 from ...runtime.flight.base_memory import MemoryCell
 from ...runtime.flight.results import COMPLETE, NONFINITE
 from ...runtime.process.opening import open_simulation
-from ...runtime.ssp.given_values import ParameterValue
+from ...runtime.ssp.parameter_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
 from ..request.declaration import PointDeclaration
@@ -68,14 +68,14 @@ class Bench:
         self.point = point
         self.channels = tuple(channels)
         self.connectors = list(dict.fromkeys(name for channel in channels for name in channel.connectors))
-        wanted = {name for channel in channels for name in channel.recorded}
+        requested = {name for channel in channels for name in channel.recorded}
         if point.signal is not None:
             if point.signal not in prepared.network.nodes:
                 known = suggestion(point.signal, prepared.network.nodes)
                 raise InputError(prepared.network.file, f"point {point.name}", f"no signal {point.signal}", known)
-            wanted.add(point.signal)
+            requested.add(point.signal)
         self.simulation = open_simulation(
-            prepared, varied=varied, wanted=wanted, more=recorded, excited=self.connectors, open_end=True
+            prepared, varied=varied, requested=requested, additional=recorded, excited=self.connectors, open_end=True
         )
         self.period = self._hyperperiod()
         self.origin = self._origin()

@@ -80,7 +80,7 @@ def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> t
 
     ``integrated``: of its integral over time, without the ramp that a constant disturbance causes.
     """
-    with open_simulation(prepared, wanted=channel.recorded) as simulation:
+    with open_simulation(prepared, requested=channel.recorded) as simulation:
         flight = simulation.fly()
         if flight.status not in COMPLETE or flight.time.size < FEWEST:
             return None

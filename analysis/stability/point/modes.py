@@ -39,10 +39,10 @@ def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
     classified = []
     for place in np.argsort(-abs(values), kind="stable"):
         z = complex(values[place])
-        moved, seen = into[place] > APART, out[place] > APART
+        is_excited, is_observed = into[place] > APART, out[place] > APART
         if residue[place] <= APART:  # the weaker side is the one that is missing
-            moved, seen = moved and into[place] >= out[place], seen and out[place] > into[place]
-        kind = KINDS.get((bool(moved), bool(seen)), "neither")
+            is_excited, is_observed = is_excited and into[place] >= out[place], is_observed and out[place] > into[place]
+        kind = KINDS.get((bool(is_excited), bool(is_observed)), "neither")
         classified.append(_mode(z, model.period, kind, float(into[place]), float(out[place])))
     return tuple(classified)
 

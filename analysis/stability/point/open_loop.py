@@ -102,6 +102,6 @@ def _waves(lifted: StateSpace, ports: tuple[SampledChannel, ...], frequency: np.
 
 def _difference(actual: np.ndarray, expected: np.ndarray) -> float:
     size = np.linalg.norm(expected, axis=(1, 2))
-    seen = (size > SMALLEST_GAIN) & (size < 1.0 / SMALLEST_GAIN)
-    change = np.linalg.norm(actual - expected, axis=(1, 2))[seen] / size[seen]
+    significant = (size > SMALLEST_GAIN) & (size < 1.0 / SMALLEST_GAIN)
+    change = np.linalg.norm(actual - expected, axis=(1, 2))[significant] / size[significant]
     return float(np.max(np.where(np.isfinite(change), change, 1.0), initial=0.0))

@@ -139,7 +139,7 @@ class PointStudy:
             raise StudyError(str(error)) from error
         models = [item for port in ports if (item := self.model(port.channel)) is not None]
         stable = all(item.stable for item in models)
-        wanted = {
+        required = {
             MarginQuantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
             MarginQuantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
         }
@@ -157,7 +157,7 @@ class PointStudy:
             open_loop=open_loop(model, ports) if all(item.has_plateau for item in models) else None,
             requirements=tuple(
                 MarginRequirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
-                for quantity, (size, limit) in wanted.items()
+                for quantity, (size, limit) in required.items()
             ),
         )
 

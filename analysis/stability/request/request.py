@@ -109,31 +109,33 @@ def _select(
         remedy = "name a loop in the SSD, or cut one with `loops` COMPONENT.CONNECTOR `at`"
         raise InputError(description.file, "", "declares no loops", remedy)
     cuts = [PointDeclaration(f"t = {time:g} s", time=time) for time in at or (0.0,)]
-    wanted: list[LoopDeclaration] = []
+    selected: list[LoopDeclaration] = []
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
             remedy = f"{suggestion(name, by_name)}, or cut one" if by_name else "it names none; cut one"
             raise InputError("`loops`", name, "the SSD declares no such loop", f"{remedy} with COMPONENT.CONNECTOR")
-        wanted.append(by_name.get(name) or LoopDeclaration(name, cut=name, points=tuple(point.name for point in cuts)))
+        selected.append(
+            by_name.get(name) or LoopDeclaration(name, cut=name, points=tuple(point.name for point in cuts))
+        )
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:
-        requested = {name for loop in wanted for name in loop.points}
+        requested = {name for loop in selected for name in loop.points}
         here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
         # points that differ by their time only are one under `at`: the first with the same settings
         same = {point.name: (_remaining(point.layer, options), point.until) for point in here}
         origins = {name: next(other for other in same if same[other] == same[name]) for name in same}
-        for index, loop in enumerate(wanted):
+        for index, loop in enumerate(selected):
             if loop.name in by_name:
                 different = dict.fromkeys(origins[name] for name in loop.points)
                 names_at = tuple(_name_at(name, time) for name in different for time in at)
-                wanted[index] = replace(loop, points=names_at)
-    used = {point for loop in wanted for point in loop.points}
-    retained = {loop.name for loop in wanted}
+                selected[index] = replace(loop, points=names_at)
+    used = {point for loop in selected for point in loop.points}
+    retained = {loop.name for loop in selected}
     return Declaration(
         declared.limits,
         tuple(point for point in points if point.name in used),
-        tuple(wanted),
+        tuple(selected),
         tuple(sweep for sweep in sweeps if sweep.loop in retained),
     )
 

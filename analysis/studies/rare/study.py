@@ -44,7 +44,7 @@ def rare_failure(
     if not 0.0 < least < 1.0:
         raise InputError("`least`", f"{least:g}", "not a probability", "give one between 0 and 1")
     space = DrawSpace(plan.campaign, hold, may_be_empty=True)
-    wanted = failure_of(plan.campaign, failure)
+    requested = failure_of(plan.campaign, failure)
     flown = Flown()
     with SampleFlights(
         plan, space.from_normals(np.zeros((1, space.size))), noise_trial=noise_trial, workers=workers
@@ -55,7 +55,7 @@ def rare_failure(
 
         def margin(points: Points) -> np.ndarray:
             trials, draws = flights.fly(space.from_normals(points.draws), noise.of(points.streams))
-            margins = wanted.margins({**draws, **trials.metrics}, trials.flown)
+            margins = requested.margins({**draws, **trials.metrics}, trials.flown)
             flown.add(points.draws, draws, trials.metrics, margins)
             return margins
 
@@ -71,6 +71,6 @@ def rare_failure(
             raise InputError(*where, problem, "use a failure condition whose margin varies continuously") from stuck
         units = units_of(space, flights.prepared, flights.facts)
         return RareOutcome(
-            failure=wanted, simulation=simulation, samples=samples, space=space, flown=flown.whole(),
+            failure=requested, simulation=simulation, samples=samples, space=space, flown=flown.whole(),
             facts=flights.facts, noise=noise, units=units, lost=flights.lost,
         )  # fmt: skip

@@ -17,7 +17,7 @@ from ....common.progress import progress_bar
 from ...campaigns.definition.checks import check_draws
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.draws.declared import Columns
-from ...campaigns.draws.given import Streams
+from ...campaigns.draws.supplied import Streams
 from ...campaigns.execute.workers import worker_count
 from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import LoopMargins

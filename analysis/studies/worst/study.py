@@ -13,7 +13,7 @@ from ....common.errors import InputError
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.draws.declared import Columns, input_names
 from ...campaigns.draws.generators import standard_normals
-from ...campaigns.draws.given import Streams
+from ...campaigns.draws.supplied import Streams
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
 from ..flights import SampleFlights, StudyProvenance

@@ -19,7 +19,7 @@ from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...campaigns.definition.sweeps import split_sweeps
-from ...campaigns.draws.given import ALL, GivenDraws
+from ...campaigns.draws.supplied import ALL, SuppliedDraws
 from ...campaigns.execute.campaign import LoadedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
 from ...campaigns.folder.manifest import FILE as MANIFEST
@@ -101,7 +101,7 @@ def commands_of(plan: BatchPlan) -> StudyCommands:
     (variant,) = plan.campaign.variants()
 
     def replay(draws: Path, trial: int) -> str:
-        samples = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
+        samples = SuppliedDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
         return replay_command(plan.of_samples(samples), variant, trial)
 
     def monte_carlo(trials: int) -> str:

@@ -27,10 +27,10 @@ def prepare(course: ExchangeSystem, sequential: bool = False) -> Fly:
     }
     # the container calls the FMUs by the names of their files
     files = {component: fmu.name for component, fmu in course.prepared.network.fmus.items()}
-    wanted: dict[str, int] = {}
+    requested: dict[str, int] = {}
     for name in course.names:
         component = next(component for component in files if name.startswith(f"{component}."))
-        wanted[name] = references[f"{files[component]}.{name.removeprefix(f'{component}.')}"]
+        requested[name] = references[f"{files[component]}.{name.removeprefix(f'{component}.')}"]
     start, step = course.prepared.start, course.prepared.step
 
     def fly(steps: int) -> Values:
@@ -46,10 +46,10 @@ def prepare(course: ExchangeSystem, sequential: bool = False) -> Fly:
         slave.exitInitializationMode()
         for n in range(steps):
             slave.doStep(start + n * step, step)
-        values = slave.getReal(list(wanted.values()))
+        values = slave.getReal(list(requested.values()))
         slave.terminate()
         slave.freeInstance()
-        return dict(zip(wanted, values, strict=True))
+        return dict(zip(requested, values, strict=True))
 
     return fly
 

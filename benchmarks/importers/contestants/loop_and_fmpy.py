@@ -22,7 +22,7 @@ def prepare_loop(course: ExchangeSystem, algorithm: str = "sequential", flavour:
     prepared = course.flight(1, algorithm)
     prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
     try:
-        simulation = Simulation(prepared, wanted=course.names)
+        simulation = Simulation(prepared, requested=course.names)
     except InputError as error:
         raise Unavailable(str(error)) from error
     simulation.ignore_finished()

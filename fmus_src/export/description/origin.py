@@ -64,14 +64,14 @@ def accompanying_files(fmi: int, *, is_ours: bool, runs_python: bool = False) ->
 
 
 def _date() -> str:
-    given = os.environ.get(EPOCH)
-    if given is None:
+    seconds = os.environ.get(EPOCH)
+    if seconds is None:
         return _text_of(RELEASED)
     try:
-        return _text_of(datetime.fromtimestamp(int(given), UTC))
+        return _text_of(datetime.fromtimestamp(int(seconds), UTC))
     except (ValueError, OverflowError, OSError):
         remedy = "give whole seconds since 1970, or unset it"
-        raise InputError(EPOCH, given, "is not a time", remedy) from None
+        raise InputError(EPOCH, seconds, "is not a time", remedy) from None
 
 
 def _text_of(date: datetime) -> str:

@@ -80,9 +80,9 @@ class CallTypes(ExpressionTypes):
         """Resolve a call; return the callee of a kernel function, else the type of its value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
-        made = self.make_matrix(node, self._callee(node.func)[0])
-        if made is not None or node in self.function.calls:
-            return made
+        matrix = self.make_matrix(node, self._callee(node.func)[0])
+        if matrix is not None or node in self.function.calls:
+            return matrix
         if self._callee(node.func)[0] in MAKERS:
             return None
         record = self._record(node.func)

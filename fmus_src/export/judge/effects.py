@@ -160,12 +160,12 @@ class _Effects:
     def _changes_when_called(self, callee: Function, argument: ast.expr) -> bool:
         """Return True if an argument is a function with side effects that the callee calls."""
         kind = self.function.types.get(argument)
-        given = [
+        functions = [
             inner
             for inner in callee.callees()
             if isinstance(kind, BoundFunction) and inner.source.function is kind.function
         ]
-        return any(inner.changes_anything for inner in given)
+        return any(inner.changes_anything for inner in functions)
 
     def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
         """Return the possible outcomes of an expression, and mark the operands to be hoisted."""

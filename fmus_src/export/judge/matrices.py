@@ -119,8 +119,8 @@ class MatrixTypes(RecordTypes):
         else:
             rule = "matrix size"
             sizes = [self.static_size(argument) for argument in node.args]
-            wanted = 2 if name == "zeros" else 1
-            good = len(sizes) == wanted and not node.keywords and all(size is not None and size > 0 for size in sizes)
+            count = 2 if name == "zeros" else 1
+            good = len(sizes) == count and not node.keywords and all(size is not None and size > 0 for size in sizes)
             kind = MatrixType(sizes[0], sizes[-1]) if good else None  # type: ignore[arg-type]
         if kind is None:
             self.report(node, rule, name=name)

@@ -124,25 +124,25 @@ class _FunctionMaker:
             self.kernel.report(*place, "argument count", name=source.name, expected=len(names), got=len(types))
             return None
         parameters: dict[str, Type] = {}
-        for argument, given in zip(names, types, strict=True):
+        for argument, actual in zip(names, types, strict=True):
             declared = _annotation(source, argument.annotation)
             if declared is None:
                 known = "float, int, bool, Vector3 (or 2, 4), Matrix, list, tuple, record"
                 detail = f"argument {argument.arg} is none of {known}"
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
-            if not _fits(given, declared):
-                mixed = {List, VectorType} == {type(given), List if declared == "list" else type(declared)}
+            if not _fits(actual, declared):
+                mixed = {List, VectorType} == {type(actual), List if declared == "list" else type(declared)}
                 self.kernel.report(
                     *place,
                     "list and vector" if mixed else "argument type",
                     name=source.name,
                     expected={ANY_VECTOR: "vector", ANY_MATRIX: "matrix"}.get(declared, declared),
                     argument=argument.arg,
-                    got=given,
+                    got=actual,
                 )
                 return None
-            parameters[argument.arg] = given
+            parameters[argument.arg] = actual
         return parameters
 
     def _returns(self, source: Source, parameters: dict[str, Type]) -> Returned | None:
@@ -168,17 +168,17 @@ class _FunctionMaker:
         return returned
 
 
-def _fits(given: Type, declared: Value | str) -> bool:
+def _fits(actual: Type, declared: Value | str) -> bool:
     """Return True if an argument is of the declared type."""
     if declared == "list":
-        return isinstance(given, List)
+        return isinstance(actual, List)
     if declared == FUNCTION:
-        return isinstance(given, BoundFunction)
+        return isinstance(actual, BoundFunction)
     if declared == ANY:
-        return isinstance(given, Scalar | VectorType | RecordType)
+        return isinstance(actual, Scalar | VectorType | RecordType)
     if declared == ANY_MATRIX:
-        return isinstance(given, MatrixType)
-    return given == declared or (declared == ANY_VECTOR and isinstance(given, VectorType))
+        return isinstance(actual, MatrixType)
+    return actual == declared or (declared == ANY_VECTOR and isinstance(actual, VectorType))
 
 
 def _annotation(source: Source, node: ast.expr | None) -> Value | str | None:

@@ -175,17 +175,17 @@ class RecordTypes(VectorTypes):
         self.function.fields.add(node)
         return kind.field(node.attr)
 
-    def make_record(self, node: ast.Call, made: Any) -> Type | None:
+    def make_record(self, node: ast.Call, record: Any) -> Type | None:
         """Infer the type of ``Motion(position=p, speed=v)`` or ``replace(s, speed=v)``."""
-        if isinstance(made, FunctionType):
+        if isinstance(record, FunctionType):
             kind = self.infer(node.args[0]) if len(node.args) == 1 and is_variable(node.args[0]) else None
             if not isinstance(kind, RecordType):
                 self.report(node, "replace")
                 return None
         else:
-            kind = RecordType(made)
-            if node.args or [keyword.arg for keyword in node.keywords] != list(made.fields):
-                self.report(node, "record", name=kind, names=", ".join(f"{name}=..." for name in made.fields))
+            kind = RecordType(record)
+            if node.args or [keyword.arg for keyword in node.keywords] != list(record.fields):
+                self.report(node, "record", name=kind, names=", ".join(f"{name}=..." for name in record.fields))
                 return None
         for keyword in node.keywords:
             got = self.infer(keyword.value)

@@ -108,9 +108,9 @@ class CallWriter(ABC):
 
     def _make_record(self, node: ast.Call, kind: RecordType) -> str:
         """Return the C text of a record of all its fields, or of a copy with some fields replaced."""
-        given = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
+        keywords = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
         holder = self.write(node.args[0], ATOM) if node.args else ""
-        values = [given.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]
+        values = [keywords.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]
         return f"(({c_type(kind)}){{{', '.join(values)}}})"
 
     def _builtin(self, node: ast.Call, call: BuiltinCall) -> tuple[str, int]:

@@ -178,7 +178,7 @@ def test_flown_by_perilune(fmu, tmp_path):
     name = "lunar_terminal_guidance"
     prepared = prepare_system(fmu, SystemOptions(set={f"{name}.guidance.use": 2}))
     expected = fly_one(fmu, {"guidance.use": 2})
-    with Simulation(prepared, wanted=[f"{name}.finished", f"{name}.plant.position[1]"]) as simulation:
+    with Simulation(prepared, requested=[f"{name}.finished", f"{name}.plant.position[1]"]) as simulation:
         for _ in range(2):
             flight = simulation.fly()
             assert np.array_equal(flight[f"{name}.plant.position[1]"], expected["plant.position[1]"])

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 def test_what_was_flown_comes_back(monkeypatch, flavour, step):
     monkeypatch.setattr("perilune.analysis.runtime.flight.interruptible.PATIENCE", 60.0)
     prepared = prepare_system("lunar_landing", SystemOptions(flavour=flavour, step=step))
-    with Simulation(prepared, wanted=["plant.position[1]", "plant.mass"]) as simulation:
+    with Simulation(prepared, requested=["plant.position[1]", "plant.mass"]) as simulation:
         with interrupted_when(lambda: simulation.buffers.outcome[4] > 100):
             result = fly(simulation)
         flown = {name: values.copy() for name, values in result.signals.items()}
@@ -30,7 +30,7 @@ def test_what_was_flown_comes_back(monkeypatch, flavour, step):
     assert not result.complete
     assert result.message == f"interrupted at t = {times[-1]:g} s"
     assert 100 < times.size < prepared.steps
-    with Simulation(prepared, wanted=["plant.position[1]", "plant.mass"]) as simulation:
+    with Simulation(prepared, requested=["plant.position[1]", "plant.mass"]) as simulation:
         whole = simulation.advance(-1, times.size - 1)
         for name, values in flown.items():
             assert np.array_equal(values, whole[name])

@@ -46,7 +46,7 @@ def without_outputs(lag, tmp_path):
 def recorded(path, names, **options):
     prepared = prepare_system(path, SystemOptions(**options))
     more = find_variables(prepared.network, names, is_alone=prepared.archive.is_fmu)
-    with open_simulation(prepared, more=more) as simulation:
+    with open_simulation(prepared, additional=more) as simulation:
         result = simulation.fly()
     return {name: values.copy() for name, values in result.signals.items()}
 
@@ -68,7 +68,7 @@ def test_a_local_variable_has_the_values_of_fmpy(without_outputs):
 def test_the_command_line(without_outputs, tmp_path, capsys):
     words = ["run", str(without_outputs), "--step", "0.125", "--stop-time", "1"]
     assert main(words) == 0
-    assert "no FMU has an output: name what run is to record with --record" in " ".join(capsys.readouterr().out.split())
+    assert "no FMU has an output; name variables to record with --record" in " ".join(capsys.readouterr().out.split())
     file, page = tmp_path / "o.csv", tmp_path / "o.html"
     assert main([*words, "--record", "y", "--output", str(file), "--report", str(page)]) == 0
     rows = list(csv.reader(file.open()))

@@ -80,7 +80,7 @@ def test_a_flight_that_ends_late_does_not_end_the_next(hanging):
 
 def test_native_fmus(fmus):
     prepared = prepare_system("lunar_landing", SystemOptions(flavour="native", step=0.0005))
-    with Simulation(prepared, wanted=["plant.mass"]) as simulation:
+    with Simulation(prepared, requested=["plant.mass"]) as simulation:
         result = fly(simulation, 0.05)
         assert result.status == "timed_out"
         flown = result["plant.mass"].copy()

@@ -20,10 +20,10 @@ from tests.support.graphs.small_blocks import graphs
 from tests.support.lengths import either
 
 
-def flown(path, flavour, values, faults=(), wanted=None, **options):
+def flown(path, flavour, values, faults=(), requested=None, **options):
     """Return two flights of one simulation: signals as bytes, status and message; of a refusal its words."""
     prepared = prepare_system(path, SystemOptions(flavour=flavour, set=values, **options))
-    with Simulation(prepared, wanted=wanted, faults=faults) as simulation:
+    with Simulation(prepared, requested=requested, faults=faults) as simulation:
         ends = []
         for _ in range(2):
             flight = simulation.fly()
@@ -36,9 +36,9 @@ def flown(path, flavour, values, faults=(), wanted=None, **options):
 @settings(max_examples=either(10_000, 8), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(graph=graphs())
 def test_random_graphs(tiny_folder, tmp_path_factory, graph):
-    ssd, values, faults, wanted, algorithm = graph
+    ssd, values, faults, requested, algorithm = graph
     path = pack(tmp_path_factory.getbasetemp() / "graph.ssp", tiny_folder / "native", ssd)
-    native, fused = (flown(path, each, values, faults, wanted, algorithm=algorithm) for each in ("native", "fused"))
+    native, fused = (flown(path, each, values, faults, requested, algorithm=algorithm) for each in ("native", "fused"))
     assert fused == native
 
 

@@ -6,7 +6,7 @@ Truth: numpy's integer types. SSP 1.0 has Real and Integer only, whatever an FMU
 import numpy as np
 import pytest
 
-from perilune.analysis.runtime.ssp.given_values import parse_value
+from perilune.analysis.runtime.ssp.parameter_values import parse_value
 from perilune.analysis.runtime.ssp.types import integer_range, is_of_type
 from perilune.common.errors import InputError
 

@@ -34,12 +34,12 @@ def compare(flight: Flight, rows: Rows) -> None:
 
 
 def assert_same(
-    prepared: PreparedSystem, faults: Sequence[Fault] = (), wanted: Collection[str] | None = None, flights: int = 2
+    prepared: PreparedSystem, faults: Sequence[Fault] = (), requested: Collection[str] | None = None, flights: int = 2
 ) -> str:
     """Simulate a system by the reference loop, then ``flights`` times by the executor with
     reset instances; return the status."""
-    rows = fly_reference(prepared, faults, wanted)
-    with Simulation(prepared, faults=faults, wanted=wanted) as simulation:
+    rows = fly_reference(prepared, faults, requested)
+    with Simulation(prepared, faults=faults, requested=requested) as simulation:
         for _ in range(flights):
             compare(simulation.fly(), rows)
         assert (simulation.fused_steps != 0) == (prepared.options.chosen["flavour"] == FUSED)
@@ -86,6 +86,6 @@ def fly_again(simulation: Simulation, flight: Flight) -> bool:
     values = {key: parameters[key] for key in simulation.settings.variables if key in parameters}
     varied = replace(prepared.settings, variables=prepared.settings.variables | values)
     selection, faults = simulation._selection, [fault for fault in simulation._faults if fault is not None]
-    rows = fly_reference(replace(prepared, settings=varied), faults, selection.wanted)
+    rows = fly_reference(replace(prepared, settings=varied), faults, selection.requested)
     compare(flight, rows)
     return True

@@ -68,14 +68,14 @@ class Cluster:
         """Return an iterator over finished futures, at least one. Raises WorkersDiedError if no worker is left."""
         from distributed import wait
 
-        seen = time.monotonic()
+        last_time = time.monotonic()
         while True:
             with suppress(TimeoutError), self._client.as_current():
                 done = wait(list(under_way), timeout=LOOK_UP, return_when="FIRST_COMPLETED").done
                 return iter(done)
             if self._threads():
-                seen = time.monotonic()
-            elif time.monotonic() - seen > WITHOUT_WORKERS:
+                last_time = time.monotonic()
+            elif time.monotonic() - last_time > WITHOUT_WORKERS:
                 raise WorkersDiedError(f"the scheduler {self._address} had no worker for {WITHOUT_WORKERS:g} s")
 
     def _end(self, futures: list[Any], key: str) -> None:

@@ -82,16 +82,16 @@ def _position(reader: SignalReader, element: etree._Element, surface: Surface | 
 
 
 def _attitude(reader: SignalReader, element: etree._Element, position: Position | None) -> Attitude | None:
-    given = [names for names in ATTITUDES if any(name in element.attrib for name in names)]
-    if not given:
+    declared = [names for names in ATTITUDES if any(name in element.attrib for name in names)]
+    if not declared:
         return None
-    if len(given) > 1:
-        forms = " and ".join(names[0] for names in given)
+    if len(declared) > 1:
+        forms = " and ".join(names[0] for names in declared)
         raise reader.refuse(element, f"attitudes of two kinds, {forms}", "give one of them")
-    for name in given[0]:
+    for name in declared[0]:
         if name not in element.attrib:
-            raise reader.refuse(element, f"{given[0][0]} without {name}", f'write {name}="..." too')
-    match given[0][0]:
+            raise reader.refuse(element, f"{declared[0][0]} without {name}", f'write {name}="..." too')
+    match declared[0][0]:
         case "quaternion":
             return Quaternion(read_signal(reader, element, "quaternion", 4))
         case "angles":

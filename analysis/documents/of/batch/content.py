@@ -9,7 +9,7 @@ from functools import cached_property
 from ....campaigns.columns import describe_metric
 from ....campaigns.definition.campaign import Campaign, Metric
 from ....campaigns.execute.results import CampaignResult
-from ....campaigns.judged import worst_trial
+from ....campaigns.metric_limits import worst_trial
 from ...common.colours import Look, look
 from ..campaign.distributions import sort_metrics
 from ..campaign.replays import Replay

@@ -15,8 +15,8 @@ from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.execute.evaluation import worst_statuses
 from ....campaigns.execute.flyer import TrialResult
 from ....campaigns.execute.results import CampaignResult
-from ....campaigns.judged import worst_trial
 from ....campaigns.lost_trials import describe_lost_trials
+from ....campaigns.metric_limits import worst_trial
 from ....campaigns.plain_text import align_columns, short
 from ....campaigns.summary import requirement_values
 from ....campaigns.tables import unmet_lines
@@ -58,8 +58,8 @@ def status_meanings(plan: BatchPlan, result: CampaignResult) -> list[str]:
         texts = dict.fromkeys(text for text in result.summary[variant.name].statuses if worst_statuses(text))
         if texts:
             network = plan.prepare(variant).network
-            seen = {item: None for text in texts for item in worst_statuses(text).items()}
-            meanings |= {with_meaning(network, *item): None for item in seen}
+            statuses = {item: None for text in texts for item in worst_statuses(text).items()}
+            meanings |= {with_meaning(network, *item): None for item in statuses}
     return list(meanings)
 
 

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
-from ....campaigns.judged import MetricLimits, metric_limits
+from ....campaigns.metric_limits import MetricLimits, metric_limits
 from ....campaigns.requirement_verdicts import RequirementVerdict
 from ....campaigns.summary import Interval, Summary, VariantSummary
 from ....campaigns.verdicts.acceptance import AcceptanceVerdict

@@ -11,7 +11,7 @@ import numpy as np
 from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
-from ....campaigns.judged import MetricLimits, worst_row
+from ....campaigns.metric_limits import MetricLimits, worst_row
 from ...common.colours import Look
 from ..campaign.replays import Replay
 from ..campaign.verdict_table import VerdictTable, verdict_table

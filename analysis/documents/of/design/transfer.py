@@ -68,7 +68,7 @@ def _summary(study: HoverStudy) -> list[Node]:
     numbers: list[tuple[str, Cell]] = [
         ("propellant", Quantity(fraction * vehicle.mass, "kg", 5)),
         ("propellant fraction", Quantity(fraction, digits=5)),
-        ("duration", Phrase([Quantity(programme.duration, "s", 5), " (given)" if study.given else ""])),
+        ("duration", Phrase([Quantity(programme.duration, "s", 5), " (given)" if study.is_duration_set else ""])),
         ("relative to vertical descent", Quantity(fraction / study.vertical.propellant_fraction, digits=5)),
         ("programme", programme.kind),
     ]

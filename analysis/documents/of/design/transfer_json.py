@@ -23,7 +23,7 @@ def transfer_json(study: HoverStudy) -> dict[str, object]:
         "transfer": asdict(study.transfer),
         "programme": {
             "kind": programme.kind,
-            "duration_given": study.given,
+            "duration_given": study.is_duration_set,
             **dict(zip(NAMES, programme.times, strict=True)),
             "k": programme.threshold,
             **_propellant(study, programme.propellant_fraction),

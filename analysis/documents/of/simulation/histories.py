@@ -193,8 +193,8 @@ def history_chart(group: SignalGroup, result: FlightResult, *, intervals: tuple[
             zip(group.names, group.labels if group.is_named else group.names, values, strict=True)
         )
     ]
-    seen = result.time[np.isfinite(values).any(axis=0)]
-    abscissa = linear_axis(axis_ends(seen), intervals[0], label="time, s")
+    finite_times = result.time[np.isfinite(values).any(axis=0)]
+    abscissa = linear_axis(axis_ends(finite_times), intervals[0], label="time, s")
     if group.type == "Boolean":
         ordinate = named_axis((-0.15, 1.15), [(0.0, "false"), (1.0, "true")])
         return Chart(NO_BOX, abscissa, ordinate, curves=curves)
@@ -237,8 +237,8 @@ def signal_plot(result: FlightResult, names: Sequence[str]) -> Drawing:
         charts.append(history_chart(group, result, intervals=(8, 5)))
         titles.append(label_with_unit(group.variable, group.unit))
         legends.append(group.labels)
-    seen = [chart.x.ends for chart in charts]
-    time = linear_axis((min(low for low, _ in seen), max(high for _, high in seen)), 8, label="time, s")
+    ends = [chart.x.ends for chart in charts]
+    time = linear_axis((min(low for low, _ in ends), max(high for _, high in ends)), 8, label="time, s")
     panels = [replace(chart, x=bare_axis(time)) for chart in charts[:-1]]
     return plot_charts([*panels, replace(charts[-1], x=time)], PLOT_HEIGHT, PLOT_WIDTH, titles=titles, legends=legends)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from ....campaigns.definition.campaign import TrialRecord
 from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.draws.declared import input_names
-from ....campaigns.draws.given import GivenDraws, part_streams, stream_component
+from ....campaigns.draws.supplied import SuppliedDraws, part_streams, stream_component
 from ....campaigns.execute.flyer import Flyer
 from ....runtime.flight.results import FlightResult
 from ....studies.worst.outcome import WorstOutcome
@@ -221,10 +221,10 @@ def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[FlightResult, 
     """Simulate the worst case of a study's ``plan``, equal to the search to the last bit. Raises InputError."""
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
-    given = GivenDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))
+    supplied = SuppliedDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))
     plain = replace(plan, campaign=replace(plan.campaign, record=TrialRecord(), group=None, scatters=()))
     with chdir(Path.cwd()):  # an FMU may change the folder
-        flyer = Flyer(plain.of_samples(given))
+        flyer = Flyer(plain.of_samples(supplied))
         (variant,) = flyer.variants
         simulation, _ = flyer.replay(variant, 0)
         return simulation, read_figures(plain.prepare(flyer.variants[variant]))

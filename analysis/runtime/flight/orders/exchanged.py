@@ -23,16 +23,16 @@ class Exchanged:
     def __init__(
         self,
         network: Network,
-        wanted: Collection[str] | None,
+        requested: Collection[str] | None,
         additional: Collection[str],
         injections: Sequence[Injection],
     ) -> None:
         self._network = network
         read = {link.source.name for link in network.links()}
         faulty = {injection.connector for injection in injections}
-        self.fetched = None if wanted is None else read | set(wanted) | set(additional) | faulty
+        self.fetched = None if requested is None else read | set(requested) | set(additional) | faulty
         self.tuned = find_tuned(network, faulty)
-        self.named = {*(wanted or ()), *additional}
+        self.named = {*(requested or ()), *additional}
         signals = [link.source for link in network.links() if not link.is_parameter]
         self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}

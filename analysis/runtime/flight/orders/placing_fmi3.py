@@ -43,8 +43,8 @@ class TransferPlacing:
         fetched = {short for short, name in names.items() if exchanged.is_fetched(name)}
         inputs = select_arrays((each for each in numbers if each.causality == "input"), driven)
         others = {each.array or each.name for each in numbers if names[each.name] in exchanged.other_sources}
-        given = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
-        outputs = select_arrays(given, fetched)
+        readable = (each for each in numbers if each.causality == "output" or (each.array or each.name) in others)
+        outputs = select_arrays(readable, fetched)
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
             mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
             target += [self._add(component, group, is_set=True) for group in group_by_representation(mine)]

@@ -43,14 +43,16 @@ class TextSlots:
         self.ranges = np.zeros((len(network.fmus), 2, 2), dtype=np.int64)
         for index, (component, fmu) in enumerate(network.fmus.items()):
             self.variables.append([])
-            for column, (causality, wanted) in enumerate((("input", links), ("output", read))):
+            for column, (causality, exchanged) in enumerate((("input", links), ("output", read))):
                 first = len(self._references)
                 variables = fmu.variables.values() if links else ()
                 every = [each for each in variables if each.type == type_name and each.causality == causality]
-                selected = select_arrays(every, {each.name for each in every if f"{component}.{each.name}" in wanted})
+                selected = select_arrays(
+                    every, {each.name for each in every if f"{component}.{each.name}" in exchanged}
+                )
                 for variable in selected:
-                    given = settings.variables.get((component, variable.name), variable.start or "")
-                    self._add(f"{component}.{variable.name}", variable.reference, str(given))
+                    initial = settings.variables.get((component, variable.name), variable.start or "")
+                    self._add(f"{component}.{variable.name}", variable.reference, str(initial))
                 self.ranges[index, column] = first, len(self._references) - first
                 self.variables[-1].append(selected)
         for name in sorted(read - set(self.slots)):

@@ -8,8 +8,8 @@ from .....common.errors import InputError
 from ...ssp.archive import SystemArchive
 from ...ssp.description import Component, Element, SystemDescription, SystemElement
 from ...ssp.dimensions import Dimension
-from ...ssp.given_values import ParameterValue
 from ...ssp.parameter_sets import Assignment, read_binding
+from ...ssp.parameter_values import ParameterValue
 from ..fmu import Fmu
 
 SIZES = ("structuralParameter", "constant")  # kinds of connectors that give a size
@@ -24,7 +24,7 @@ def walk(system: SystemElement, path: str = "") -> Iterator[tuple[str, SystemEle
             yield from walk(element, f"{path}{element.name}.")
 
 
-def given_values(
+def assigned_values(
     description: SystemDescription, archive: SystemArchive, assignments: Sequence[Assignment]
 ) -> dict[str, ParameterValue]:
     """Return values of parameter sets and options by hierarchical name; later override earlier, outer inner ones.
@@ -39,19 +39,19 @@ def given_values(
         ]:
             if isinstance(element, Component) or element is system:
                 for binding in element.bindings:
-                    given, _ = read_binding(archive, description.file, binding, description.units, unmatched)
-                    values |= {prefix + each.name: each.value for each in given}
+                    assignments_read, _ = read_binding(archive, description.file, binding, description.units, unmatched)
+                    values |= {prefix + each.name: each.value for each in assignments_read}
     return values | {each.name: each.value for each in assignments}
 
 
 class Sizes:
-    """Sizes of dimensions. ``given`` returns the assigned values; it is called when they are first needed."""
+    """Sizes of dimensions. ``assigned`` returns the assigned values; it is called when they are first needed."""
 
     def __init__(
-        self, description: SystemDescription, given: Callable[[], Mapping[str, ParameterValue]], load: Load
+        self, description: SystemDescription, assigned: Callable[[], Mapping[str, ParameterValue]], load: Load
     ) -> None:
         self.description = description
-        self.given = given
+        self.assigned = assigned
         self.load = load
         self.sources = _structural_sources(description)
         self.components = {
@@ -74,8 +74,8 @@ class Sizes:
             raise InputError(self.description.file, where, problem, "correct it, or write size")
         full = path + name
         chain = self._chain(full)
-        given = self._find_assigned(chain) if connector.kind == "structuralParameter" else None
-        return self._check(self._find_start(full) if given is None else given, full, where)
+        assigned = self._find_assigned(chain) if connector.kind == "structuralParameter" else None
+        return self._check(self._find_start(full) if assigned is None else assigned, full, where)
 
     def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
         """Return the values of a component's structural parameters ``names`` that are set by connections.
@@ -86,9 +86,9 @@ class Sizes:
         for name in names:
             full = f"{component}.{name}"
             chain = self._chain(full)[1:]
-            given = self._find_assigned(chain)
-            if given is not None:
-                sizes[name] = self._check(given, chain[-1], full)
+            assigned = self._find_assigned(chain)
+            if assigned is not None:
+                sizes[name] = self._check(assigned, chain[-1], full)
         return sizes
 
     def _chain(self, name: str) -> list[str]:
@@ -102,8 +102,8 @@ class Sizes:
         """Return the outermost value assigned along a chain, or the value of the constant at its end."""
         if not chain:
             return None
-        given = self.given()
-        return next((given[name] for name in reversed(chain) if name in given), self._constant(chain[-1]))
+        assigned = self.assigned()
+        return next((assigned[name] for name in reversed(chain) if name in assigned), self._constant(chain[-1]))
 
     def _constant(self, name: str) -> object:
         component, _, short = name.rpartition(".")
@@ -119,13 +119,13 @@ class Sizes:
         variable = self.load(component, self.components[component]).variables.get(short)
         return None if variable is None else variable.start
 
-    def _check(self, given: object, name: str, where: str) -> int:
+    def _check(self, value: object, name: str, where: str) -> int:
         try:
-            size = int(str(given))
+            size = int(str(value))
         except ValueError:
             size = -1
         if size < 0:
-            problem = f"{name} has no value" if given is None else f"{name} is {given}, which is not a valid size"
+            problem = f"{name} has no value" if value is None else f"{name} is {value}, which is not a valid size"
             raise InputError(self.description.file, where, problem, "give it a value in a parameter set")
         return size
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from .....common.errors import InputError, suggestion
 from ...ssp.conversions import VALUE_TYPES
-from ...ssp.given_values import ParameterValue
 from ...ssp.kinds import PARAMETERS
+from ...ssp.parameter_values import ParameterValue
 from ..network import Network, Node, NodeLink
 from .settings import SystemSettings
 

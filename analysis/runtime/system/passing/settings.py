@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ...ssp.given_values import ParameterValue
 from ...ssp.parameter_sets import Assignment
+from ...ssp.parameter_values import ParameterValue
 
 
 @dataclass

@@ -28,7 +28,7 @@ Streams = Mapping[str, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class GivenDraws:
+class SuppliedDraws:
     """Supplied draws for all trials: ``columns`` maps every drawn name to an array (trials,) of doubles.
 
     ``streams`` maps a component to the numbers of the trials (trials,) whose random streams it uses; `ALL` stands for
@@ -55,7 +55,7 @@ class GivenDraws:
         streams = self.streams.get(component, self.streams.get(ALL))
         return np.arange(trials.start, trials.stop) if streams is None else streams[trials.start : trials.stop]
 
-    def of_part(self, trials: range) -> GivenDraws:
+    def of_part(self, trials: range) -> SuppliedDraws:
         rows = slice(trials.start, trials.stop)
         streams = dict(self.streams)
         if trials.start and ALL not in streams:
@@ -89,7 +89,7 @@ def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarra
     return draws, streams
 
 
-def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
+def read_supplied(path: Path, campaign: CampaignDraws) -> SuppliedDraws:
     """Read the draws of a campaign from a Parquet file with a row per trial, like a batch's draws.parquet.
 
     Columns ``streams_of.COMPONENT`` state which trial's random stream a component uses in a row, ``streams_of`` that of
@@ -117,7 +117,7 @@ def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
     for name in stream_columns:
         if np.any((columns[name] < 0.0) | (columns[name] > TRIALS.limit) | (columns[name] != np.round(columns[name]))):
             raise InputError(path, name, "not all values are trial numbers", "give whole numbers, 0 or more")
-    return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
+    return SuppliedDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
 
 
 def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) -> None:

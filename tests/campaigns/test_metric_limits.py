@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.judged
+"""perilune.analysis.campaigns.metric_limits
 
 Truth: the expressions themselves, evaluated at numbers within the limits and beyond them; rows sorted by hand.
 """
@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.definition.expressions import Expression
-from perilune.analysis.campaigns.judged import MetricLimits, metric_limits, worst_row, worst_trial
+from perilune.analysis.campaigns.metric_limits import MetricLimits, metric_limits, worst_row, worst_trial
 from perilune.analysis.campaigns.trials import TrialTable
 
 INFINITY = math.inf
