@@ -40,12 +40,12 @@ def test_lines_are_empirical_distributions(folders):
 
 
 def test_folders_and_what_was_opened_or_flown_are_alike(folders):
-    made = sample_batch(trials=50, variants=("alpha",), seed=9, noise=2.0)
-    flown = BatchResult(made.plan, made.rows, made.provenance)
-    given = {"one": perilune.open_results(folders["one"]), "two": flown}
+    created = sample_batch(trials=50, variants=("alpha",), seed=9, noise=2.0)
+    flown = BatchResult(created.plan, created.rows, created.provenance)
+    settings = {"one": perilune.open_results(folders["one"]), "two": flown}
     lines = [
         [line.get_xydata() for axes in perilune.plot_results(results).axes for line in axes.lines]
-        for results in (folders, given)
+        for results in (folders, settings)
     ]
     assert len(lines[0]) == 3 * 5
     for first, second in zip(*lines, strict=True):

@@ -92,9 +92,9 @@ def test_a_subclass_may_declare_a_bundle_again_with_other_starts() -> None:
 
 
 def test_what_is_no_bundle_of_the_kind_is_refused_whole() -> None:
-    for given in (1.0, Bundles().first):
+    for values in (1.0, Bundles().first):
         with pytest.raises(TypeError, match=r"bundled: give a Level of a block, or assign level, slope"):
-            Bundled().two = given  # type: ignore[assignment]
+            Bundled().two = values  # type: ignore[assignment]
 
 
 def test_a_member_that_does_not_exist_is_refused() -> None:

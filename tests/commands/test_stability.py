@@ -226,8 +226,8 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
 )
 def test_wrong_input(plain, campaign, tmp_path, monkeypatch, capsys, arguments, words):
     monkeypatch.chdir(tmp_path)
-    given = [campaign if token == "CAMPAIGN" else token for token in arguments]
-    assert main(["stability", plain, *given, "--report", "page.html", "--json", "found.json"]) == 2
+    options = [campaign if token == "CAMPAIGN" else token for token in arguments]
+    assert main(["stability", plain, *options, "--report", "page.html", "--json", "found.json"]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.startswith("perilune: ")
@@ -245,14 +245,14 @@ def test_a_system_without_loops(capsys):
 
 
 def test_margins_over_a_campaign_and_its_worst_trial_again(plain, campaign, capsys):
-    given = [plain, "--campaign", campaign]
-    actual, _ = run(capsys, *given)
+    options = [plain, "--campaign", campaign]
+    actual, _ = run(capsys, *options)
     (loop,) = actual["loops"]
     spread = loop["dispersion"]
     assert (spread["trials"], spread["unstable_trials"]) == (TRIALS, 0)
     columns = {name: [] for name in ("gain_margin_db", "phase_margin_deg", "disk_margin")}
     for trial in range(TRIALS):
-        one, _ = run(capsys, *given, "--trial", str(trial))
+        one, _ = run(capsys, *options, "--trial", str(trial))
         sampled = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"]).loop
         gain, phase, _ = crossings(sampled)
         (repeated,) = one["loops"]
@@ -282,13 +282,13 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
     """Truth: the closed loop's poles by python-control for the gain that was drawn."""
     path = tmp_path / "wild.toml"
     path.write_text(CAMPAIGN.replace("high = 0.03", "high = 0.4"))
-    given = [plain, "--campaign", str(path)]
-    actual, errors = run(capsys, *given, status=1)
+    options = [plain, "--campaign", str(path)]
+    actual, errors = run(capsys, *options, status=1)
     (loop,) = actual["loops"]
     spread = loop["dispersion"]
     largest = []
     for trial in range(TRIALS):
-        one, _ = run(capsys, *given, "--trial", str(trial), status=None)
+        one, _ = run(capsys, *options, "--trial", str(trial), status=None)
         sampled = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"])
         largest.append(np.max(abs(sampled.closed)))
         assert one["loops"][0]["stable"] == (largest[-1] < 1.0)
@@ -301,7 +301,7 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
         f"perilune: loop loop at there: {fraction}: {unstable} of {TRIALS} trials unstable; "
         f"replay the worst: {spread['replay']}"
     ]
-    assert main(["stability", *given]) == 1
+    assert main(["stability", *options]) == 1
     assert f"{unstable} of {TRIALS} trials unstable; worst trial {spread['worst_trial']}: " in capsys.readouterr().out
 
 
@@ -345,8 +345,8 @@ def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys
 @pytest.mark.usefixtures("fmus")
 @pytest.mark.slow
 def test_the_robot_s_margins_over_its_uncertain_inertia(capsys):
-    given = ["robot_rendezvous", "--parameters", "paper.ssv", "--loop", "translation_4s"]
-    actual, _ = run(capsys, *given, "--campaign", "inertia", "--trials", "3")
+    options = ["robot_rendezvous", "--parameters", "paper.ssv", "--loop", "translation_4s"]
+    actual, _ = run(capsys, *options, "--campaign", "inertia", "--trials", "3")
     exact = translation_loop(4.0).margins
     assert [loop["name"] for loop in actual["loops"]] == [f"translation_4s[{axis}]" for axis in (1, 2, 3)]
     worst = {loop["dispersion"]["worst_trial"] for loop in actual["loops"]}

@@ -35,9 +35,9 @@ def test_a_run_writes_them_and_reads_them_again(tmp_path):
     wires = "".join(connection("=in", f"{name}.u") for name in NAMES)
     root = system(*inner, connections=wires, declared="input =in Real")
     path = pack(tmp_path / "s.ssp", tmp_path, document(root, stop=1.0, step=0.25))
-    given = tmp_path / "inputs.csv"
-    given.write_text("time,'=in\n0,2\n1,2\n")
-    flight = perilune.simulate(path, input=given)
+    values = tmp_path / "inputs.csv"
+    values.write_text("time,'=in\n0,2\n1,2\n")
+    flight = perilune.simulate(path, input=values)
     assert flight["=in"][-1] == 2.0
     flight.write(tmp_path / "flight.csv")
     with (tmp_path / "flight.csv").open(newline="") as text:

@@ -39,16 +39,18 @@ def tide(position, body, mu):
 def test_energy_stays_in_zonal_gravity(fmus):
     """To 0.05 J/kg, while the tides change by 9; degree 8 alone is 7, degrees 3 to 8 are 258 J/kg."""
     table, step = zonal_side.simulate(20.0), 20.0
-    given = zonal_side.handed_over(step)
+    surroundings = zonal_side.handed_over(step)
     position, velocity = columns(table, POSITION), columns(table, VELOCITY)
-    distance, pole = np.linalg.norm(position, axis=1), np.array(given["axes"][0])[2]
-    tides = sum(tide(position[:-1], np.array(given[name]), given[f"{name}_mu"]) for name in ("sun", "moon"))
-    sine, ratio = position @ pole / distance, given["radius"] / distance
+    distance, pole = np.linalg.norm(position, axis=1), np.array(surroundings["axes"][0])[2]
+    tides = sum(
+        tide(position[:-1], np.array(surroundings[name]), surroundings[f"{name}_mu"]) for name in ("sun", "moon")
+    )
+    sine, ratio = position @ pole / distance, surroundings["radius"] / distance
 
     def energy(degree):
-        coefficients = [given["normalised"][n * (n + 1) - 6] * np.sqrt(2 * n + 1) for n in range(2, degree + 1)]
+        coefficients = [surroundings["normalised"][n * (n + 1) - 6] * np.sqrt(2 * n + 1) for n in range(2, degree + 1)]
         terms = sum(c * ratio**n * eval_legendre(n, sine) for n, c in enumerate(coefficients, 2))
-        whole = 0.5 * np.sum(velocity**2, axis=1) - given["earth_mu"] / distance * (1.0 + terms)
+        whole = 0.5 * np.sum(velocity**2, axis=1) - surroundings["earth_mu"] / distance * (1.0 + terms)
         return whole[:-1] - tides
 
     assert np.ptp(energy(zonal.DEGREE)) < 0.05
@@ -59,11 +61,11 @@ def test_dipoles_add_their_torque_to_the_angular_momentum(fmus):
     """Within the first 200 s, with the gravity gradient, by trapezoids."""
     step = torquers.CASE.step
     table = torquers_side.simulate(step)
-    given = torquers_side.handed_over(step)
+    surroundings = torquers_side.handed_over(step)
     rows = slice(0, 201)
     attitude, whole = momentum(table, torquers.INERTIA)
     dipole = np.clip(torquers.COMMANDS[0][1], -torquers.LIMIT, torquers.LIMIT) + np.array(torquers.RESIDUAL)
-    axes = np.array(given["axes"])[rows] - 0.5 * step * np.array(given["axes_rate"])[rows]
+    axes = np.array(surroundings["axes"])[rows] - 0.5 * step * np.array(surroundings["axes_rate"])[rows]
     fixed = np.einsum("kij,kj->ki", axes, columns(table, POSITION)[rows])
     field = np.array([harmonics.magnetic_field(r, torquers_side.magnetic_field.START, 12) for r in fixed])
     torque = np.cross(attitude[rows].apply(dipole), np.einsum("kij,ki->kj", axes, field))
@@ -83,10 +85,14 @@ def test_plates_are_pushed_by_air_and_light(fmus):
     r, k = position[40], 40
     acceleration = (8.0 * (velocity[k + 1] - velocity[k - 1]) - velocity[k + 2] + velocity[k - 2]) / (12.0 * step)
     felt = plates.MASS * (acceleration + plates.MU / np.linalg.norm(r) ** 3 * r)
-    given = plates_side.handed_over(step)
-    rate = np.array(given["axes_rate"])[k][0] @ np.array(given["axes"])[k][1] * np.array(given["axes"])[k][2]
+    surroundings = plates_side.handed_over(step)
+    rate = (
+        np.array(surroundings["axes_rate"])[k][0]
+        @ np.array(surroundings["axes"])[k][1]
+        * np.array(surroundings["axes"])[k][2]
+    )
     turn = Rotation.from_quat(columns(table, ATTITUDE)[k], scalar_first=True)
-    against, away = velocity[k] - np.cross(rate, r), np.array(given["sun"])[k] - r
+    against, away = velocity[k] - np.cross(rate, r), np.array(surroundings["sun"])[k] - r
     density = plates.DENSITY * np.exp((plates.HEIGHT + plates.RADIUS - np.linalg.norm(r)) / plates.SCALE_HEIGHT)
     distance = np.linalg.norm(away)
     pressure = plates.LARGER * SOLAR_PRESSURE * (149597870700.0 / distance) ** 2

@@ -81,7 +81,7 @@ def test_as_json(capsys):
     assert main(["verify", NAME, "--json", "-"]) == 0
     (actual,) = json.loads(capsys.readouterr().out)
     assert actual["verified"]
-    assert [made["name"] for made in actual["reproductions"]] == ["check", "outputs"]
+    assert [created["name"] for created in actual["reproductions"]] == ["check", "outputs"]
     assert all(signal["difference"] == 0.0 for signal in actual["reproductions"][1]["signals"])
 
 

@@ -63,10 +63,10 @@ def test_a_force_gives_its_impulse(exported):
 def test_a_landing_is_that_of_our_plant_to_second_order(exported):
     apart = []
     for step in (0.1, 0.05):
-        given = {"parameters": ["ideal.ssv"], "set": {"plant.internal_step": step}}
+        values = {"parameters": ["ideal.ssv"], "set": {"plant.internal_step": step}}
         law = {"guidance": "analytic_exact_guidance"}
-        ours = perilune.simulate("lunar_landing", use=law, **given)
-        other = perilune.simulate("lunar_landing", use=law | {"plant": exported / "basilisk_moon_lander.fmu"}, **given)
+        ours = perilune.simulate("lunar_landing", use=law, **values)
+        other = perilune.simulate("lunar_landing", use=law | {"plant": exported / "basilisk_moon_lander.fmu"}, **values)
         assert ours.time[-1] == other.time[-1]
         apart.append(
             [np.abs(ours[name] - other[name]).max() for name in ("plant.position", "plant.velocity", "plant.mass")]
@@ -94,8 +94,8 @@ def test_trials_do_not_depend_on_workers_or_order(exported, tmp_path):
 
 def test_wrong_parameters_are_refused_by_name(exported, capsys):
     wrong = {"dry_mass=2000": "does not exceed dry_mass", "internal_step=0.03": "not a multiple of internal_step"}
-    for given, problem in wrong.items():
-        options = ["--use", f"plant={exported / 'basilisk_moon_lander.fmu'}", "--set", f"plant.{given}"]
+    for values, problem in wrong.items():
+        options = ["--use", f"plant={exported / 'basilisk_moon_lander.fmu'}", "--set", f"plant.{values}"]
         assert main(["run", "lunar_landing", *options]) != 0
         printed = capsys.readouterr()
         assert problem in printed.out + printed.err

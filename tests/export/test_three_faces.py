@@ -91,14 +91,14 @@ def test_three_faces_of_a_users_block_agree(block: type[Block], tmp_path: Path) 
     fly_faces(block, files, STEPS)
 
 
-def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
+def fly_faces(block: type[Block], files: list[Path], required: int) -> None:
     """Compare a block's Python object and FMUs after each of as many steps."""
     instances = [instantiate(load_fmu(file.read_bytes(), str(file)), block.fmu_name) for file in files]
     faces = [Face(block, instance) for instance in instances]
     random = lengths.generator(f"{block.fmu_name} faces")
     rows: set[bytes] = set()
     steps, flights = 0, 0
-    while steps < wanted:
+    while steps < required:
         flights += 1
         h = block.default_step * random.choice([0.5, 1.0])
         plain = BlockInstance(block)
@@ -137,9 +137,9 @@ def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
             latched = latched + 1 if row in rows else 0
             rows.add(row)
             steps += 1
-            if latched > 2 or steps >= wanted:
+            if latched > 2 or steps >= required:
                 break
     for instance in instances:
         instance.free()
-    enough = flights - 1 if block.fmu_name in STEADY else 0.5 * wanted
+    enough = flights - 1 if block.fmu_name in STEADY else 0.5 * required
     assert only_switches(block) or len(rows) > enough, "most rows repeat earlier ones: the comparison says little"

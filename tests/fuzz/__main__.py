@@ -35,18 +35,18 @@ def main() -> int:
     parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")
     parser.add_argument("--unguided", action="store_true", help="one target of Python with random inputs")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="number of the first random input")
-    given = parser.parse_args()
-    if given.unguided and given.name in (None, *VERSIONS):
+    arguments = parser.parse_args()
+    if arguments.unguided and arguments.name in (None, *VERSIONS):
         parser.error("--unguided: needs the name of a target of Python")
-    if given.name is None:
-        return max(_run(name, given.runs or runs) for name, runs in RUNS.items())
-    runs = given.runs or RUNS[given.name]
-    if given.name in VERSIONS:
-        return _fuzz_fmus(given.name, runs)
-    if given.unguided:
-        unguided.fuzz(given.name, FOLDER / given.name, runs, given.first)
+    if arguments.name is None:
+        return max(_run(name, arguments.runs or runs) for name, runs in RUNS.items())
+    runs = arguments.runs or RUNS[arguments.name]
+    if arguments.name in VERSIONS:
+        return _fuzz_fmus(arguments.name, runs)
+    if arguments.unguided:
+        unguided.fuzz(arguments.name, FOLDER / arguments.name, runs, arguments.first)
     else:
-        guided.fuzz(given.name, FOLDER / given.name, runs)
+        guided.fuzz(arguments.name, FOLDER / arguments.name, runs)
     return 0
 
 

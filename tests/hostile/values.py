@@ -30,13 +30,13 @@ CASES = {
         packed(
             system(
                 component("ramp", "ramp"),
-                bindings=inline(f"ramp.{'flag_at' if 'Integer' in given else 'start'}={given}"),
+                bindings=inline(f"ramp.{'flag_at' if 'Integer' in text else 'start'}={text}"),
             )
         ),
         COMMANDS,
         (SSD, "ramp." if name in READ_LATER else "line 10: not valid SSP"),
     )
-    for name, given in VALUES.items()
+    for name, text in VALUES.items()
 }
 OPTIONS = {
     "--step 1e300": "--step",

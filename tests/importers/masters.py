@@ -108,9 +108,9 @@ def fly_container(fmu: Path, flight: Flight, folder: Path) -> Values:
     tool = Path(sys.executable).with_name("fmucontainer")
     version = ["-fmi", "3"] if fmpy.read_model_description(str(fmu), validate=False).fmiVersion == "3.0" else []
     command = [str(tool), *version, "-container", f"box.csv:{flight.step}", "-fmu-directory", "."]
-    made = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    if made.returncode or not (folder / "box.fmu").exists():
-        raise RuntimeError((made.stderr or made.stdout).strip().splitlines()[-1])
+    completed = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    if completed.returncode or not (folder / "box.fmu").exists():
+        raise RuntimeError((completed.stderr or completed.stdout).strip().splitlines()[-1])
     return fly_fmpy(folder / "box.fmu", flight, folder)
 
 

@@ -31,12 +31,12 @@ def coefficients(*arguments):
 
 def by_conditions(value, slope, end_value, end_slope, duration, degree):
     """Return coefficients in s from the linear equations of the ends."""
-    rows, wanted = [], []
+    rows, desired = [], []
 
     def condition(s, order, what):
         powers = [Polynomial.basis(k).deriv(order)(s) if order else Polynomial.basis(k)(s) for k in range(degree + 1)]
         rows.append(powers)
-        wanted.append(what)
+        desired.append(what)
 
     for s, place, speed in ((0.0, value, slope), (1.0, end_value, end_slope)):
         condition(s, 0, place)
@@ -44,7 +44,7 @@ def by_conditions(value, slope, end_value, end_slope, duration, degree):
         condition(s, 2, 0.0)
     if degree == 6:
         condition(1.0, 3, 0.0)
-    return np.linalg.solve(np.array(rows), np.array(wanted))
+    return np.linalg.solve(np.array(rows), np.array(desired))
 
 
 @given(ordinary, ordinary, ordinary, ordinary, durations, st.sampled_from([5, 6]))

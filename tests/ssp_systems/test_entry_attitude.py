@@ -108,8 +108,8 @@ def test_cases_with_sensor_errors(noisy):
     for regulator, trials in noisy.items():
         expected, tolerance = CASES[regulator]
         actual = [*largest(trials), float(trials.metrics["propellant"].mean())]
-        for value, wanted, within in zip(actual, expected, tolerance, strict=True):
-            assert value < wanted + within, (regulator, actual)
+        for value, desired, within in zip(actual, expected, tolerance, strict=True):
+            assert value < desired + within, (regulator, actual)
         assert not trials.metrics["beyond_tables"].any()
 
 

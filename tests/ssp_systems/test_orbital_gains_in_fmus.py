@@ -104,6 +104,6 @@ def test_the_discrete_observer(number):
     slow, fast = poles[0], 3.0 * poles[1] + 0.1
     fmu = Fmu("orbital_observer_discrete", inertia=inertia, sample_period=tick, yaw_pole=slow, measured_pole=fast)
     sampled = expm(linear_matrix(inertia) * tick)
-    wanted = [np.exp(-fast * tick) * np.eye(5), [[np.exp(-slow * tick)]]]
-    placed = np.linalg.solve(sampled, modal.place_levels(sampled.T, C.T, wanted).gain.T)
+    desired = [np.exp(-fast * tick) * np.eye(5), [[np.exp(-slow * tick)]]]
+    placed = np.linalg.solve(sampled, modal.place_levels(sampled.T, C.T, desired).gain.T)
     assert np.abs(fmu.matrix("gain", 6, 5) - placed).max() < 1e-9 * np.abs(placed).max()

@@ -66,10 +66,10 @@ def test_what_is_not_finite_is_a_failure():
 
 
 def test_a_campaign_fails_where_it_has_no_success(campaign):
-    made = campaign(METRICS)
-    assert failure_of(made, None).text == "not (1)"
-    assert failure_of(made, "miss > 2 and mass < 930").names == {"miss", "mass"}
+    created = campaign(METRICS)
+    assert failure_of(created, None).text == "not (1)"
+    assert failure_of(created, "miss > 2 and mass < 930").names == {"miss", "mass"}
     with pytest.raises(InputError, match="failure: moss: neither a metric nor a draw of the campaign; use one of"):
-        failure_of(made, "moss > 2")
+        failure_of(created, "moss > 2")
     with pytest.raises(InputError, match="failure"):
-        failure_of(made, "miss >")
+        failure_of(created, "miss >")

@@ -25,11 +25,11 @@ def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path],
     """Return the folder ``name`` of this test run, which ``make`` has filled for the first worker that asked for it."""
     base = factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / name
-    made = folder.with_name(f"{name}.made")
+    marker = folder.with_name(f"{name}.made")
     with one_process_at_a_time(folder.with_name(f"{name}.lock")):
-        if not made.is_file():
+        if not marker.is_file():
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
             make(folder)
-            made.touch()
+            marker.touch()
     return folder

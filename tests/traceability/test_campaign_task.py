@@ -119,8 +119,8 @@ def test_requirements_and_verdicts(traced):
 
 def test_the_same_bytes_again(traced, tmp_path):
     folder, _, _ = traced
-    made = perilune.batch(SYSTEM, folder / "few.toml", output=folder / "in flight", resume=True)
-    made.write_task(folder / "again.stmd")
+    created = perilune.batch(SYSTEM, folder / "few.toml", output=folder / "in flight", resume=True)
+    created.write_task(folder / "again.stmd")
     assert (folder / "again.stmd").read_bytes() == (folder / "task.stmd").read_bytes()
 
 

@@ -49,9 +49,9 @@ def test_values_come_with_the_line_that_gives_them(described):
     assert values["gravity"] == (1.6, "`set`", "m/s2")
     value, origin, _ = values["target_position"]
     for index, line in enumerate(range(*_stretch(origin))):
-        given = (SYSTEMS / SYSTEM / origin.split()[0]).read_text().splitlines()[line - 1]
-        assert f"guidance.target_position[{index + 1}]" in given
-        assert float(given.split('value="')[1].split('"')[0]) == value[index]
+        settings = (SYSTEMS / SYSTEM / origin.split()[0]).read_text().splitlines()[line - 1]
+        assert f"guidance.target_position[{index + 1}]" in settings
+        assert float(settings.split('value="')[1].split('"')[0]) == value[index]
     assert values["last_burn"][1] is None
 
 

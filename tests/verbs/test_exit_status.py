@@ -133,30 +133,30 @@ confidence = 0.9
 @pytest.fixture(scope="module")
 def folder(fmus, exact_fmus, tmp_path_factory):
     """Write a campaign's folder in each state, a system that never finishes, a loop within and beyond its limits."""
-    made = tmp_path_factory.mktemp("verbs")
-    (made / "empty").mkdir()
-    (made / "undecided.toml").write_text(UNDECIDED)
+    root = tmp_path_factory.mktemp("verbs")
+    (root / "empty").mkdir()
+    (root / "undecided.toml").write_text(UNDECIDED)
     for name, height in (("one", 1), ("other", 2)):
-        (made / f"{name}.csv").write_text(f"time,height\n0,{height}\n")
+        (root / f"{name}.csv").write_text(f"time,height\n0,{height}\n")
     for name, words in (
         ("prepared", ""), ("failing", FAILING), ("flown", ""), ("failed", FAILING)
     ):  # fmt: skip
         command = ONE.removesuffix(" --workers 1").split()
         verb = "prepare" if name in ("prepared", "failing") else "batch"
-        assert main([verb, *command, "--trials", "2", *words.split(), "--output", str(made / name)]) in (0, 1)
+        assert main([verb, *command, "--trials", "2", *words.split(), "--output", str(root / name)]) in (0, 1)
     with zipfile.ZipFile(shipped_fmu("flat_moon_lander", "native")) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
-    write_zip(made / "changed.fmu", files | {"documentation/index.html": b""})
-    short = made / "short"
+    write_zip(root / "changed.fmu", files | {"documentation/index.html": b""})
+    short = root / "short"
     shutil.copytree(SYSTEMS / SYSTEM, short)
     text = (short / "SystemStructure.ssd").read_text()
     text = re.sub(r'stopTime="[^"]*"', 'stopTime="5"', re.sub(r"<Limits.*?</Limits>", "", text, flags=re.DOTALL))
     (short / "SystemStructure.ssd").write_text(text)
     loop = late_double_integrator()
-    loop.packed(made, exact_fmus).rename(made / "late.ssp")
+    loop.packed(root, exact_fmus).rename(root / "late.ssp")
     strict = replace(loop, ssd=loop.ssd.replace("<Point", '<Limits modulus_margin="0.99"/>\n<Point', 1))
-    strict.packed(made, exact_fmus).rename(made / "strict.ssp")
-    return made
+    strict.packed(root, exact_fmus).rename(root / "strict.ssp")
+    return root
 
 
 @pytest.mark.parametrize(("command", "status"), ROWS)
@@ -172,11 +172,11 @@ def test_the_status_of_a_command(command, status, folder, tmp_path, monkeypatch,
 
 
 def test_the_table_has_every_verb_with_every_status_that_it_can_end_with():
-    seen = {(verb, status) for command, status in ROWS for verb in VERBS if f"{command} ".startswith(f"{verb} ")}
+    known = {(verb, status) for command, status in ROWS for verb in VERBS if f"{command} ".startswith(f"{verb} ")}
     for verb in VERBS:
         can = {0, 2} | ({1} if verb in FAILURES else set())
         left_out = {0, 1} if verb in ELSEWHERE else set()
-        assert {status for name, status in seen if name == verb} | left_out >= can, verb
+        assert {status for name, status in known if name == verb} | left_out >= can, verb
 
 
 @pytest.mark.parametrize("verb", VERBS)

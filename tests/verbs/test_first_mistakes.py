@@ -81,11 +81,11 @@ PARAMETER = "from perilune import Parameter\n"
 def block(
     body="self.y = self.u", declared="", base="Block", method="step(self, t: float, h: float) -> None", imports=""
 ):
-    given = (
+    values = (
         '    u = Input(0.0, description="in")\n    y = Output(0.0, description="out")\n'
         '    v = Output([0.0, 0.0, 0.0], description="out")\n'
     )
-    return BLOCK.format(body=body, declared=declared + given, base=base, method=method, imports=imports)
+    return BLOCK.format(body=body, declared=declared + values, base=base, method=method, imports=imports)
 
 
 def zipped(path, files):

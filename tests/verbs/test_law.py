@@ -41,10 +41,10 @@ def test_the_parameter_set_is_the_law(tmp_path, capsys):
     assert main(["validate", str(path)]) == 0
     options = {"step": 0.05, "set": {"sensor.sample_period": 0.05}}
     own = perilune.simulate("lunar_descent_2d", **options)
-    given = perilune.simulate("lunar_descent_2d", parameters=[str(tmp_path / "new" / "diveev_2013.ssv")], **options)
-    assert given.status == own.status == "finished"
+    settings = perilune.simulate("lunar_descent_2d", parameters=[str(tmp_path / "new" / "diveev_2013.ssv")], **options)
+    assert settings.status == own.status == "finished"
     for name, values in own.signals.items():
-        assert (given.signals[name] == values).all(), name
+        assert (settings.signals[name] == values).all(), name
     basic = perilune.simulate("lunar_descent_2d", parameters=[str(path)], **options)
     assert basic.final()["plant.ground_contact"]
     capsys.readouterr()

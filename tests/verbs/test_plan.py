@@ -17,7 +17,7 @@ from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.declared_bounds import PIECES, declared_system
 
 
-def made(capsys, *arguments, status=0):
+def run_plan(capsys, *arguments, status=0):
     """Return the JSON of a plan."""
     assert main(["design", *arguments, "--json", "-"]) == status
     return json.loads(capsys.readouterr().out)
@@ -41,7 +41,7 @@ def test_the_programme_alone(capsys):
 
 
 def test_a_given_time(capsys):
-    programme = made(capsys, "transfer", "--t7", "78")["programme"]
+    programme = run_plan(capsys, "transfer", "--t7", "78")["programme"]
     assert programme["t2_s"] == pytest.approx(15.0086, abs=0.02)
     assert programme["t5_s"] == pytest.approx(64.7012, abs=0.02)
     assert programme["tp_s"] == pytest.approx(10.9309, abs=0.02)
@@ -52,19 +52,19 @@ def test_a_given_time(capsys):
 
 
 def test_margins(capsys):
-    actual = made(capsys, "transfer", "--margins")
+    actual = run_plan(capsys, "transfer", "--margins")
     assert actual["programme"]["propellant_fraction"] == pytest.approx(0.052518, abs=5e-6)
     assert actual["margins"] == pytest.approx(
         {"maximum_throttle": 0.9, "minimum_throttle": 0.1, "angular_acceleration_deg_s2": 0.7}
     )
     single = ["--maximum-throttle", "0.9", "--minimum-throttle", "0.1", "--angular-acceleration", "0.7"]
-    assert made(capsys, "transfer", *single)["programme"] == actual["programme"]
-    fewer = made(capsys, "transfer", "--angular-acceleration", "0.7")
+    assert run_plan(capsys, "transfer", *single)["programme"] == actual["programme"]
+    fewer = run_plan(capsys, "transfer", "--angular-acceleration", "0.7")
     assert fewer["margins"]["minimum_throttle"] == pytest.approx(1.0 / 15.0)
 
 
 def test_straight_down(capsys):
-    programme = made(capsys, "transfer", "--distance", "0")["programme"]
+    programme = run_plan(capsys, "transfer", "--distance", "0")["programme"]
     assert (programme["kind"], programme["k"], programme["over_vertical"]) == ("vertical", None, 1.0)
     assert programme["t7_s"] == pytest.approx(70.04, abs=0.01)
     assert programme["propellant_fraction"] == pytest.approx(0.037878, abs=1e-6)
@@ -72,16 +72,16 @@ def test_straight_down(capsys):
 
 def test_the_moon_of_the_paper_is_not_stated(capsys):
     """Less gravity, less propellant: the loss is the impulse of the weight, about g t7/c, most of what there is."""
-    less = made(capsys, "transfer", "--gravity", "1.62")["programme"]["propellant_fraction"]
-    more = made(capsys, "transfer")["programme"]["propellant_fraction"]
+    less = run_plan(capsys, "transfer", "--gravity", "1.62")["programme"]["propellant_fraction"]
+    more = run_plan(capsys, "transfer")["programme"]["propellant_fraction"]
     assert less == pytest.approx(0.049485, abs=1e-6)
     assert 0.0 < more / less - 1.0 < 1.622 / 1.62 - 1.0
 
 
 def test_a_vehicle_that_is_twice_as_large(capsys):
-    one = made(capsys, "transfer")
+    one = run_plan(capsys, "transfer")
     twice = ["--mass", "1200", "--maximum-thrust", "9414.384", "--minimum-thrust", str(2.0 * 4707.192 / 15.0)]
-    two = made(capsys, "transfer", *twice)
+    two = run_plan(capsys, "transfer", *twice)
     assert two["programme"]["propellant_kg"] == pytest.approx(2.0 * one["programme"]["propellant_kg"])
 
 
@@ -108,7 +108,7 @@ def test_optimum_bound_and_curves(tmp_path, capsys):
 
 def test_conditions_and_other_programmes(capsys):
     more = ["--optimum", "--adjoint", "--finite-switches", "--free-fall", "--distances", "0,1600", "--intervals", "40"]
-    actual = made(capsys, "transfer", *more)
+    actual = run_plan(capsys, "transfer", *more)
     adjoint, free_fall = actual["adjoint"], actual["free_fall"]
     assert len(adjoint["time_s"]) == len(adjoint["costates"]) == len(adjoint["switching_function"]) == 41
     assert adjoint["costates"][-1][4] == pytest.approx(0.8 / 300.0)  # of the propellant fraction by tm
@@ -208,12 +208,12 @@ def test_without_a_solver(capsys, arguments, words):
 @pytest.mark.usefixtures("no_solvers")
 def test_the_programme_needs_no_solver(tmp_path, capsys):
     page = tmp_path / "new" / "plan.html"
-    assert made(capsys, "transfer", "--distance", "0", "--report", str(page))["true_optimum"] is None
+    assert run_plan(capsys, "transfer", "--distance", "0", "--report", str(page))["true_optimum"] is None
     assert "Not computed: true optimum, point-mass bound." in page.read_text()
 
 
 def test_landing(capsys):
-    actual = made(capsys, "bound", "--direct", "--intervals", "60")
+    actual = run_plan(capsys, "bound", "--direct", "--intervals", "60")
     assert actual["bound"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
     assert actual["direct_method"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
     assert actual["bound"]["looseness_m_s2"] < 3e-7

@@ -151,14 +151,14 @@ def test_force_is_inertial_and_torque_is_of_the_body(block_class, seed):
 @pytest.mark.parametrize("block_class", CONTINUOUS)
 @pytest.mark.parametrize("size", [0.55, 1.5, 1e3, 1e90])
 def test_saturation_keeps_the_direction_and_says_so(block_class, size):
-    wanted = size * np.array([1.0, 0.9, -0.9, 0.005, -0.01, 0.004])
-    component = started(block_class, wanted[:3], torque_command=wanted[3:], delay_fraction=0.0)
+    desired = size * np.array([1.0, 0.9, -0.9, 0.005, -0.01, 0.004])
+    component = started(block_class, desired[:3], torque_command=desired[3:], delay_fraction=0.0)
     block = component.block
     given_wrench = np.array([*block.allocated_force, *block.allocated_torque])
-    assert given_wrench / given_wrench[0] == pytest.approx(wanted / wanted[0], abs=1e-12)
+    assert given_wrench / given_wrench[0] == pytest.approx(desired / desired[0], abs=1e-12)
     assert min(block.jet_thrust) >= 0.0
     assert max(block.jet_thrust) <= 0.5
-    exact = abs(given_wrench[0] - wanted[0]) < 1e-12
+    exact = abs(given_wrench[0] - desired[0]) < 1e-12
     assert block.status == int(not exact)
     assert exact == (size == 0.55 and block_class is JetAllocationLeastPropellant)
 

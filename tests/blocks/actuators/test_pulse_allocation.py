@@ -49,11 +49,11 @@ def test_no_pulse_is_shorter_than_the_least_or_longer_than_the_tick(commands):
 def test_what_is_fired_is_what_is_demanded_but_for_a_least_pulse(commands):
     """Outside full ticks: less than one least pulse from the start, less than two over any window."""
     lengths, _, _ = fired(commands)
-    wanted = np.array(commands) * TICK / LEVELS
+    desired = np.array(commands) * TICK / LEVELS
     for axis in range(3):
         short = np.flatnonzero(np.abs(lengths[:, axis]) == TICK)
         first, last = (short[-1] + 1 if short.size else 0), len(commands)
-        missing = np.cumsum((wanted - lengths)[first:last, axis])
+        missing = np.cumsum((desired - lengths)[first:last, axis])
         assert (np.abs(missing) < LEAST + 1e-12).all()
         for start in range(len(missing)):
             assert (np.abs(missing[start:] - missing[start]) < 2.0 * LEAST + 1e-12).all()

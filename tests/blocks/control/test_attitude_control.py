@@ -114,12 +114,12 @@ def test_a_turn_is_flown_by_feed_forward_alone():
 
 
 def test_jets_and_disturbance_are_fed_forward_if_wanted():
-    for wanted in (True, False):
-        block = AttitudeControl(feed_forward=wanted)
+    for desired in (True, False):
+        block = AttitudeControl(feed_forward=desired)
         set_inputs(block, jet_torque=[0.01, 0.02, -0.03], disturbance=[1e-6, 0.0, 2e-6])
         block.initialize()
         expected = -np.array([0.01, 0.02, -0.03]) - INERTIA * [1e-6, 0.0, 2e-6]
-        assert block.torque_command == pytest.approx(expected if wanted else [0.0] * 3, abs=1e-15)
+        assert block.torque_command == pytest.approx(expected if desired else [0.0] * 3, abs=1e-15)
 
 
 @pytest.mark.parametrize("law", [0, 1])

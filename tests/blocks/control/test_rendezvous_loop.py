@@ -101,10 +101,10 @@ class Loop:
     def __init__(self, **parameters):
         self.components = {name: BlockInstance(block) for name, block in (SOURCES | FOLLOWERS).items()}
         self.blocks = {name: component.block for name, component in self.components.items()}
-        given = {"target.initial_position": TARGET.tolist(), "target.constant_velocity": DRIFT.tolist()}
-        given |= {"guidance.target_position": TARGET.tolist(), "guidance.target_velocity": DRIFT.tolist()}
-        given |= {f"guidance.{name}": value for name, value in TIMES.items()} | {"gyros.torque_lead": 0.125}
-        for place, value in (given | parameters).items():
+        values = {"target.initial_position": TARGET.tolist(), "target.constant_velocity": DRIFT.tolist()}
+        values |= {"guidance.target_position": TARGET.tolist(), "guidance.target_velocity": DRIFT.tolist()}
+        values |= {f"guidance.{name}": value for name, value in TIMES.items()} | {"gyros.torque_lead": 0.125}
+        for place, value in (values | parameters).items():
             name, variable = place.split(".")
             setattr(self.blocks[name], variable, value)
         for name, component in self.components.items():

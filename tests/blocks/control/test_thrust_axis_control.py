@@ -65,8 +65,8 @@ def test_the_command_is_that_of_the_law(axis, rate, turning, feed, since):
     around = np.cross(attitude, goal)
     angle = math.atan2(np.linalg.norm(around), attitude @ goal)
     speed = min(0.8 * angle, math.sqrt(0.5 * DEGREE * angle), 10.0 * DEGREE)
-    wanted = np.cross(goal, derivative) + speed * around / np.linalg.norm(around)
-    assert block.angular_acceleration == pytest.approx(np.array(feed) + 1.5 * (wanted - rate), abs=1e-5)
+    desired = np.cross(goal, derivative) + speed * around / np.linalg.norm(around)
+    assert block.angular_acceleration == pytest.approx(np.array(feed) + 1.5 * (desired - rate), abs=1e-5)
     assert block.direction_error == pytest.approx(angle, abs=1e-12)
     assert block.status == 0
 

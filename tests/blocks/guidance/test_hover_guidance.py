@@ -28,8 +28,8 @@ def test_the_law_gives_the_acceleration_of_its_loop(error, slip):
     """Holding, without low-pass, the command is gravity and w^2 e + 2 damping w ev, exactly."""
     block = begun(mode=HoverMode.HOLD, position=np.array(TARGET) - error, velocity=-slip, tilt_filter=0.0)
     given_acceleration = block.thrust_acceleration * np.array(block.thrust_direction) - [0.0, 0.0, GRAVITY]
-    wanted = 0.12**2 * np.array(error) + 2.0 * 0.9 * 0.12 * slip
-    assert given_acceleration == pytest.approx(wanted, abs=1e-12)
+    desired = 0.12**2 * np.array(error) + 2.0 * 0.9 * 0.12 * slip
+    assert given_acceleration == pytest.approx(desired, abs=1e-12)
     assert not block.saturated
     assert (block.plan_kind, block.finished, block.time_to_go) == (0, True, 0.0)
 
@@ -177,8 +177,8 @@ def test_samples_at_its_period():
     for name, value in (("mode", HoverMode.HOLD), ("mass", MASS), ("uniform_gravity", GRAVITY)):
         component.set([names.index(name)], [value])
     component.start()
-    seen = []
+    observed = []
     for n in range(8):
         component.do_step(n * 0.05, 0.05)
-        seen.append(component.block.command_time)
-    assert seen == pytest.approx([0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.4])
+        observed.append(component.block.command_time)
+    assert observed == pytest.approx([0.0, 0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.4])

@@ -53,9 +53,9 @@ def coast(block_class, duration, step=0.5, errors=(1e-3, 2e-4, -5e-4), **setting
 
 @pytest.mark.parametrize("block_class", FILTERS)
 def test_a_free_filter_is_one_with_a_perfect_sensor_that_measures_nothing(block_class):
-    given = {"seed": 3, "stream": 9, "gravity_gradient": True}
-    free = coast(block_class, 20.0, free_flight=True, **given)
-    perfect = coast(block_class, 20.0, errors=(0.0, 0.0, 0.0), **given, **NO_SENSOR_ERRORS)
+    values = {"seed": 3, "stream": 9, "gravity_gradient": True}
+    free = coast(block_class, 20.0, free_flight=True, **values)
+    perfect = coast(block_class, 20.0, errors=(0.0, 0.0, 0.0), **values, **NO_SENSOR_ERRORS)
     assert state_of(free).tolist() == state_of(perfect).tolist()
     assert list(free.estimate_covariance) == list(perfect.estimate_covariance)
     assert free.sample_count == perfect.sample_count
@@ -93,7 +93,7 @@ def test_not_free_and_without_gradient_nothing_changes(block_class):
     """To the bit, over 30 s of the braking flight with all sensors."""
     settings = {} if block_class is RawNavigation else {"gravity_gradient": False}
     flights = [
-        plain(block_class, measurements(5), seed=2, **given) for given in ({}, {"free_flight": False, **settings})
+        plain(block_class, measurements(5), seed=2, **values) for values in ({}, {"free_flight": False, **settings})
     ]
     for (k, one), (_, other) in zip(*flights, strict=True):
         assert state_of(one).tolist() == state_of(other).tolist()

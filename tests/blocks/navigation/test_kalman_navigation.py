@@ -113,10 +113,10 @@ def test_with_perfect_sensors_the_estimate_stays_on_the_trajectory():
 
 def test_covariance_is_that_of_least_squares_over_all_samples():
     """Without a random walk everything follows from the first state and nine constants: one linear problem."""
-    seen = measurements(scale=0.0)
-    for new in (seen.new_altitude, seen.new_position):
+    measured = measurements(scale=0.0)
+    for new in (measured.new_altitude, measured.new_position):
         new[0] = False
-    for k, block in plain(KalmanNavigation, seen, **NO_FIRST_ERRORS, velocity_random_walk=0.0):
+    for k, block in plain(KalmanNavigation, measured, **NO_FIRST_ERRORS, velocity_random_walk=0.0):
         if k == 0:  # a start without errors that is not known to have none
             for i in range(3):
                 block.covariance[i, i] = 100.0**2
@@ -137,14 +137,14 @@ def test_covariance_is_that_of_least_squares_over_all_samples():
     )
     for k in range(STEPS + 1):
         t = k * STEP
-        if seen.new_altitude[k]:
+        if measured.new_altitude[k]:
             up = (position(t) - CENTRE) / np.linalg.norm(position(t) - CENTRE)
             row = up @ to_position[k]
             information += np.outer(row, row) / (0.005 * altitude(t) + 1.0) ** 2
-        if seen.new_velocity[k]:
+        if measured.new_velocity[k]:
             sigma = 0.001 * np.linalg.norm(velocity(t)) + 0.05
             information += to_velocity[k].T @ to_velocity[k] / sigma**2
-        if seen.new_position[k]:
+        if measured.new_position[k]:
             information += to_position[k].T @ to_position[k] / (0.0015 * altitude(t) + 2.0) ** 2
     now = np.vstack([to_position[-1], to_velocity[-1], np.eye(15)[6:]])
     expected = now @ np.linalg.solve(information, now.T)
@@ -184,9 +184,9 @@ def test_outputs_are_the_six_state_part_of_the_covariance():
 
 def test_a_large_bias_is_found():
     """A bias of 0.1 m/s2 that the filter is told of: known to 5 % after the flight, whatever else is unknown."""
-    seen = measurements(1)
-    seen.increment[1:] += STEP * np.array([0.1, -0.05, 0.02])
-    *_, (_, block) = plain(KalmanNavigation, seen, bias_sigma=0.1)
+    measured = measurements(1)
+    measured.increment[1:] += STEP * np.array([0.1, -0.05, 0.02])
+    *_, (_, block) = plain(KalmanNavigation, measured, bias_sigma=0.1)
     assert block.estimated_bias == pytest.approx([0.1, -0.05, 0.02], abs=5e-3)
 
 
@@ -216,16 +216,16 @@ def test_samples_at_the_start_are_taken_in_at_the_start():
 def shifted_fixes(first, last, sigmas):
     """Return a flight whose position fixes from sample ``first`` to ``last`` are wrong along x by some of their
     sigmas."""
-    seen = measurements(4)
-    wrong = np.flatnonzero(seen.new_position)[first : last + 1]
-    seen.position[wrong, 0] += sigmas * (0.0015 * altitude(wrong * STEP) + 2.0)
-    return seen, wrong
+    measured = measurements(4)
+    wrong = np.flatnonzero(measured.new_position)[first : last + 1]
+    measured.position[wrong, 0] += sigmas * (0.0015 * altitude(wrong * STEP) + 2.0)
+    return measured, wrong
 
 
 def test_an_outlier_is_rejected_and_counted():
-    seen, (wrong,) = shifted_fixes(20, 20, 20.0)
+    measured, (wrong,) = shifted_fixes(20, 20, 20.0)
     clean = {k: state_of(block) for k, block in plain(KalmanNavigation, measurements(4))}
-    for k, block in plain(KalmanNavigation, seen):
+    for k, block in plain(KalmanNavigation, measured):
         assert block.rejected_count == (1 if k >= wrong else 0)
         assert block.status == (1 if wrong <= k < wrong + 50 else 0)
         if k == wrong:
@@ -236,25 +236,25 @@ def test_an_outlier_is_rejected_and_counted():
 
 
 def test_without_a_gate_an_outlier_is_believed():
-    seen, (wrong,) = shifted_fixes(20, 20, 20.0)
-    for k, block in plain(KalmanNavigation, seen, innovation_gate=0.0):
+    measured, (wrong,) = shifted_fixes(20, 20, 20.0)
+    for k, block in plain(KalmanNavigation, measured, innovation_gate=0.0):
         if k == wrong:
             assert block.estimated_position[0] - truth(k)[0] > 5.0 * block.position_estimate_sigma[0]
     assert block.rejected_count == 0
 
 
 def test_a_sample_that_is_not_a_number_is_rejected():
-    seen = measurements(4)
-    k = np.flatnonzero(seen.new_altitude)[100]
-    seen.altitude[k] = math.nan
-    *_, (_, block) = plain(KalmanNavigation, seen)
+    measured = measurements(4)
+    k = np.flatnonzero(measured.new_altitude)[100]
+    measured.altitude[k] = math.nan
+    *_, (_, block) = plain(KalmanNavigation, measured)
     assert block.rejected_count == 1
     assert np.isfinite(state_of(block)).all()
 
 
 def test_a_sensor_that_stays_wrong_is_kept_out_and_reported():
-    seen, wrong = shifted_fixes(30, 99, 100.0)
-    for k, block in plain(KalmanNavigation, seen):
+    measured, wrong = shifted_fixes(30, 99, 100.0)
+    for k, block in plain(KalmanNavigation, measured):
         expected = 0 if k < wrong[0] else 1 if k < wrong[4] else 2
         assert block.status == expected
     last = state_of(block) - truth(STEPS)
@@ -262,8 +262,8 @@ def test_a_sensor_that_stays_wrong_is_kept_out_and_reported():
 
 
 def test_with_reacquire_a_sensor_that_insists_is_believed():
-    seen, wrong = shifted_fixes(30, 99, 100.0)
-    for k, block in plain(KalmanNavigation, seen, reacquire=True, rejection_limit=3):
+    measured, wrong = shifted_fixes(30, 99, 100.0)
+    for k, block in plain(KalmanNavigation, measured, reacquire=True, rejection_limit=3):
         if k == wrong[2]:
             assert block.status == 2
         elif k == wrong[3]:
@@ -276,11 +276,11 @@ def test_with_reacquire_a_sensor_that_insists_is_believed():
 @pytest.mark.slow  # test_with_reacquire_a_sensor_that_insists_is_believed has the same branch
 def test_a_wrong_estimate_is_mended_by_reacquire():
     """The inertial sensor jumps by 0.5 m/s2 in mid-flight: locked out without, back on the trajectory with it."""
-    seen = measurements(5)
-    seen.increment[1000:1300, 0] += 0.5 * STEP
+    measured = measurements(5)
+    measured.increment[1000:1300, 0] += 0.5 * STEP
     errors = {}
     for reacquire in (False, True):
-        *_, (_, block) = plain(KalmanNavigation, seen, reacquire=reacquire)
+        *_, (_, block) = plain(KalmanNavigation, measured, reacquire=reacquire)
         errors[reacquire] = np.linalg.norm(state_of(block)[:3] - truth(STEPS)[:3])
     assert errors[True] < 5.0
     assert errors[False] > 100.0

@@ -29,22 +29,22 @@ COMPARED = (
 )
 
 
-def with_trouble(seen, trouble):
+def with_trouble(measured, trouble):
     """Return measurements with an outlier, a sample that is NaN, or a sensor that stays wrong."""
-    fixes = np.flatnonzero(seen.new_position)
+    fixes = np.flatnonzero(measured.new_position)
     if trouble == "outlier":
-        seen.position[fixes[10], 1] += 2e3
-        seen.altitude[np.flatnonzero(seen.new_altitude)[50]] = math.nan
+        measured.position[fixes[10], 1] += 2e3
+        measured.altitude[np.flatnonzero(measured.new_altitude)[50]] = math.nan
     elif trouble == "shift":
-        seen.position[fixes[30:], 0] += 1e3
-    return seen
+        measured.position[fixes[30:], 0] += 1e3
+    return measured
 
 
 @pytest.mark.parametrize(("seed", "trouble"), either([(1, "none"), (2, "outlier"), (3, "shift")], [(2, "outlier")]))
 def test_agrees_over_a_whole_flight(seed, trouble):
-    seen = with_trouble(measurements(seed), trouble)
+    measured = with_trouble(measurements(seed), trouble)
     settings = {"seed": 4, "stream": seed, "reacquire": trouble == "shift"}
-    flights = [plain(block_class, seen, **settings) for block_class in (KalmanNavigation, KalmanNavigationFilterpy)]
+    flights = [plain(block_class, measured, **settings) for block_class in (KalmanNavigation, KalmanNavigationFilterpy)]
     for (_, mine), (k, other) in zip(*flights, strict=True):
         values, expected = (np.array([x for name in COMPARED for x in getattr(each, name)]) for each in (mine, other))
         assert np.all(abs(values - expected) <= 1e-9 * np.maximum(abs(expected), 1.0)), k

@@ -63,8 +63,8 @@ def test_a_bias_of_the_roll_gyro_is_taken_for_yaw():
     run = Run("orbital_filter", still, **NOISY)
     for _ in range(2500):
         row = run.step(still)
-    seen = row[1] + run.block.estimated_gyro_bias.x / ORBITAL_RATE
-    assert seen == pytest.approx(bias / ORBITAL_RATE, rel=0.05)
+    measured = row[1] + run.block.estimated_gyro_bias.x / ORBITAL_RATE
+    assert measured == pytest.approx(bias / ORBITAL_RATE, rel=0.05)
     assert bias / ORBITAL_RATE / DEGREE / 0.5 == pytest.approx(0.25, abs=0.01)
 
 

@@ -15,10 +15,10 @@ from tests.support.flights.navigation_runs import NO_FIRST_ERRORS, plain, state_
 
 
 def test_with_perfect_sensors_it_stays_on_the_trajectory():
-    seen = measurements(scale=0.0)
-    for new in (seen.new_altitude, seen.new_velocity, seen.new_position):
+    measured = measurements(scale=0.0)
+    for new in (measured.new_altitude, measured.new_velocity, measured.new_position):
         new[:] = False
-    for k, block in plain(RawNavigation, seen, **NO_FIRST_ERRORS):
+    for k, block in plain(RawNavigation, measured, **NO_FIRST_ERRORS):
         error = state_of(block) - truth(k)
         assert np.linalg.norm(error[:3]) < 1e-3
         assert np.linalg.norm(error[3:]) < 1e-5
@@ -26,15 +26,15 @@ def test_with_perfect_sensors_it_stays_on_the_trajectory():
 
 
 def test_the_latest_fix_is_put_in():
-    seen = measurements(6)
-    for k, block in plain(RawNavigation, seen):
-        if seen.new_position[k]:
-            assert block.estimated_position == seen.position[k].tolist()
-        elif seen.new_altitude[k]:
+    measured = measurements(6)
+    for k, block in plain(RawNavigation, measured):
+        if measured.new_position[k]:
+            assert block.estimated_position == measured.position[k].tolist()
+        elif measured.new_altitude[k]:
             actual = np.linalg.norm(np.array(block.estimated_position) - CENTRE) - MOON_RADIUS
-            assert actual == pytest.approx(seen.altitude[k], abs=1e-8)
-        if seen.new_velocity[k]:
-            assert block.estimated_velocity == seen.velocity[k].tolist()
+            assert actual == pytest.approx(measured.altitude[k], abs=1e-8)
+        if measured.new_velocity[k]:
+            assert block.estimated_velocity == measured.velocity[k].tolist()
         assert not any([*block.position_estimate_sigma, *block.velocity_estimate_sigma, *block.estimate_covariance])
         assert block.status == 0
 
@@ -52,10 +52,10 @@ def test_an_altitude_moves_the_estimate_along_the_local_vertical():
 
 
 def test_errors_of_fixes_come_through_and_the_filter_has_less():
-    seen = measurements(7)
+    measured = measurements(7)
     errors = {}
     for block_class in (RawNavigation, KalmanNavigation):
-        rows = [state_of(block) - truth(k) for k, block in plain(block_class, seen, seed=3)]
+        rows = [state_of(block) - truth(k) for k, block in plain(block_class, measured, seed=3)]
         errors[block_class] = np.sqrt(np.mean(np.square(rows[1000:]), axis=0))
     assert (errors[KalmanNavigation] < errors[RawNavigation]).all()
 

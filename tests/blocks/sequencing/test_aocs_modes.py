@@ -179,14 +179,14 @@ def test_times_of_0_need_the_condition_nonetheless():
     modes = AocsModes(settle_time=0.0, lost_time=0.0, blind_time=0.0, attitude_known=True)
     modes.initialize()
     modes.sun_direction = [0.0, -1.0, 0.0]
-    seen = [modes.mode]
+    observed = [modes.mode]
     for n, rate in enumerate([CALM, 1.5 * CALM, 1.01 * LOST, 1.01 * LOST, 0.9 * CALM, CALM]):
         modes.estimated_angular_velocity = [rate, 0.0, 0.0]
         modes.attitude_known = n != 1
         modes.step(0.25 * n, 0.25)
-        seen.append(modes.mode)
+        observed.append(modes.mode)
     detumble, sun, nadir = AocsMode.DETUMBLE, AocsMode.SUN, AocsMode.NADIR
-    assert seen == [sun, nadir, sun, detumble, detumble, sun, nadir]
+    assert observed == [sun, nadir, sun, detumble, detumble, sun, nadir]
 
 
 def test_the_flight_may_begin_at_any_time():

@@ -23,12 +23,14 @@ def values(source):
 @pytest.mark.parametrize("engine_on", [True, False])
 @pytest.mark.parametrize("source", range(4))
 def test_the_command_in_charge_is_passed_on(source, engine_on):
-    given = {
+    settings = {
         f"{of}_{name}": value
         for k, of in enumerate(("own", "braking", "hover"), 1)
         for name, value in values(k).items()
     }
-    switch = CommandSwitch(source=source, engine_on=engine_on, hover_angular_acceleration_feed=[7.0, 8.0, 9.0], **given)
+    switch = CommandSwitch(
+        source=source, engine_on=engine_on, hover_angular_acceleration_feed=[7.0, 8.0, 9.0], **settings
+    )
     switch.initialize()
     for _ in range(2):
         if source > 0:

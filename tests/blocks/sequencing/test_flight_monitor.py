@@ -29,12 +29,12 @@ def test_outputs_are_latched_conditions(handover_speed, flight):
             monitor.initialize()
         else:
             monitor.step(0.1 * n, 0.1)
-        seen = flight[: n + 1]
-        handed_over = any(1200.0 <= altitude <= 1800.0 and speed < handover_speed for _, altitude, speed in seen)
-        grounded = any(altitude <= 0.0 for _, altitude, _ in seen)
+        observed = flight[: n + 1]
+        handed_over = any(1200.0 <= altitude <= 1800.0 and speed < handover_speed for _, altitude, speed in observed)
+        grounded = any(altitude <= 0.0 for _, altitude, _ in observed)
         assert monitor.handed_over == handed_over
         assert monitor.ground_contact == grounded
-        assert monitor.finished == (handed_over or grounded or any(finished for finished, _, _ in seen))
+        assert monitor.finished == (handed_over or grounded or any(finished for finished, _, _ in observed))
 
 
 def test_bounds_of_the_band_belong_to_it():

@@ -42,10 +42,10 @@ def test_the_first_contact_is_kept_and_judged(flight):
             assert monitor.contact_time == -1.0
             assert not monitor.within_limits
             continue
-        number, seen = first
-        expected = [-seen["vertical_speed"], seen["horizontal_speed"], seen["tilt"]]
-        expected += [np.linalg.norm(seen["angular_rate"])]
-        expected += [np.linalg.norm(np.subtract(seen["position"], seen["site"]))]
+        number, observed = first
+        expected = [-observed["vertical_speed"], observed["horizontal_speed"], observed["tilt"]]
+        expected += [np.linalg.norm(observed["angular_rate"])]
+        expected += [np.linalg.norm(np.subtract(observed["position"], observed["site"]))]
         assert [getattr(monitor, f"contact_{name}") for name in LATCHED] == pytest.approx(expected)
         assert monitor.contact_time == pytest.approx(0.1 * number)
         limits = [3.0, 1.0, math.radians(5.0), math.radians(2.0), 10.0]

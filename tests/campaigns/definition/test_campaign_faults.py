@@ -55,24 +55,24 @@ def plan(campaign):
 
 
 def test_each_of_six_jets_in_turn(plan):
-    made = plan(DRAWS + JETS)
+    planned = plan(DRAWS + JETS)
     for trial in range(12):
-        row = {name: column[trial] for name, column in made.draws.columns.items()}
+        row = {name: column[trial] for name, column in planned.draws.columns.items()}
         jet = int(row["jet"])
         expected = [None] * 6
         expected[jet - 1] = Fault(f"plant.jet_factor[{jet}]", "override", 0.0, row["failure_time"])
-        assert made.faults_of(trial) == expected
-    assert [fault.name for fault in made.list_faults()] == [f"plant.jet_factor[{jet}]" for jet in range(1, 7)]
-    assert made.fault_texts()[2] == "jet_3: plant.jet_factor[3]=override:0@failure_time when jet == 3"
+        assert planned.faults_of(trial) == expected
+    assert [fault.name for fault in planned.list_faults()] == [f"plant.jet_factor[{jet}]" for jet in range(1, 7)]
+    assert planned.fault_texts()[2] == "jet_3: plant.jet_factor[3]=override:0@failure_time when jet == 3"
 
 
 def test_value_and_times_are_expressions_over_draws(plan):
-    made = plan(fault("bias", '"failure_time / 2"', 'value = "2 * size"\nend = "repair_time"'))
+    planned = plan(fault("bias", '"failure_time / 2"', 'value = "2 * size"\nend = "repair_time"'))
     for trial in range(12):
-        row = {name: column[trial] for name, column in made.draws.columns.items()}
+        row = {name: column[trial] for name, column in planned.draws.columns.items()}
         start, end = row["failure_time"] / 2, row["failure_time"] + 20
-        assert made.faults_of(trial) == [Fault("a.b", "bias", 2 * row["size"], start, end)]
-    assert made.fault_texts() == ["x: a.b=bias:2 * size@failure_time / 2..repair_time"]
+        assert planned.faults_of(trial) == [Fault("a.b", "bias", 2 * row["size"], start, end)]
+    assert planned.fault_texts() == ["x: a.b=bias:2 * size@failure_time / 2..repair_time"]
 
 
 @pytest.mark.parametrize(
@@ -87,18 +87,18 @@ def test_value_and_times_are_expressions_over_draws(plan):
     ],
 )  # fmt: skip
 def test_constants(plan, text, expected, written):
-    made = plan(text)
-    assert made.faults_of(3) == [expected]
-    assert made.fault_texts() == [written]
+    planned = plan(text)
+    assert planned.faults_of(3) == [expected]
+    assert planned.fault_texts() == [written]
     if expected is not None:
-        assert type(made.faults_of(3)[0].value) is type(expected.value)
+        assert type(planned.faults_of(3)[0].value) is type(expected.value)
 
 
 def test_the_users_come_after_the_campaigns(plan):
     own = Fault("c.d", "freeze", start=2.0)
-    made = plan(fault(), faults=(own,))
-    assert made.faults_of(0) == [Fault("a.b", "bias", 1.0, 1.0), own]
-    assert made.fault_texts() == ["x: a.b=bias:1@1", "c.d=freeze@2"]
+    planned = plan(fault(), faults=(own,))
+    assert planned.faults_of(0) == [Fault("a.b", "bias", 1.0, 1.0), own]
+    assert planned.fault_texts() == ["x: a.b=bias:1@1", "c.d=freeze@2"]
 
 
 def test_columns_of_the_table_of_trials(plan):
@@ -125,7 +125,9 @@ def test_columns_of_the_table_of_trials(plan):
 def test_what_does_not_fly_may_be_anything(plan):
     """1/0 and a window that ends before it begins, in trials without the fault."""
     text = fault("override", '"10 / (jet - 1)"', 'value = "sqrt(jet - 2)"\nend = "20 * (jet - 2)"\nwhen = "jet > 2"')
-    assert [made is None for made in (plan(text).faults_of(trial)[0] for trial in range(6))] == [True] * 2 + [False] * 4
+    assert [planned is None for planned in (plan(text).faults_of(trial)[0] for trial in range(6))] == [True] * 2 + [
+        False
+    ] * 4
 
 
 @pytest.mark.parametrize(

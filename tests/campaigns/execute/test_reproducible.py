@@ -93,14 +93,14 @@ def test_replay_is_the_trial_to_the_last_bit(reference):
 
 def test_every_trial_and_component_has_its_stream_the_same_for_every_variant():
     plan = read_plan(SYSTEM, "noisy", SystemOptions(), trials=50, compare=COMPARE)
-    seen = set()
+    known = set()
     for variant in plan.campaign.variants():
         prepared = plan.prepare(variant)
         actual = [plan.parameters(prepared, trial) for trial in range(50)]
         streams = {(row["navigation.seed"], row["navigation.stream"]) for row in actual}
         assert len(streams) == 50
-        seen.add(frozenset(streams))
-    assert len(seen) == 1
+        known.add(frozenset(streams))
+    assert len(known) == 1
 
 
 def test_variants_face_the_same_noise_and_trials_do_not():

@@ -18,18 +18,18 @@ columns = KINDS.flatmap(lambda kind: arrays.arrays(kind, st.integers(0, 40)))
 @given(columns, st.integers(1, 3))
 def test_numbers_are_those_that_pyarrow_makes(values, step):
     values = values[::step]  # not side by side
-    made = numbers_of(values)
-    made.validate(full=True)
-    assert made.null_count == 0
-    assert made.type == pyarrow.array(values).type
-    np.testing.assert_array_equal(made.to_numpy(zero_copy_only=False), values)
+    created = numbers_of(values)
+    created.validate(full=True)
+    assert created.null_count == 0
+    assert created.type == pyarrow.array(values).type
+    np.testing.assert_array_equal(created.to_numpy(zero_copy_only=False), values)
 
 
 @given(st.lists(st.text(), max_size=20))
 def test_texts_are_those_that_pyarrow_makes(values):
-    made = texts_of(values)
-    made.validate(full=True)
-    assert made.equals(pyarrow.array(values, pyarrow.string()))
+    created = texts_of(values)
+    created.validate(full=True)
+    assert created.equals(pyarrow.array(values, pyarrow.string()))
 
 
 @given(columns, st.integers(0, 3), st.integers(0, 10), st.integers(0, 40))

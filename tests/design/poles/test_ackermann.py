@@ -44,11 +44,11 @@ def test_the_characteristic_polynomial_is_that_of_phi(states: int, inputs: int) 
     for a, b, _, _ in random_systems(COUNT, states, inputs, seed=1):
         coefficients = random.normal(size=(states // inputs, inputs, inputs))
         actual = ackermann_of(a, b, coefficients)
-        wanted = determinant(coefficients)
+        desired = determinant(coefficients)
         closed = a - b @ actual.gain  # its rounding, and that of the gain, go into its polynomial
-        error = np.max(np.abs(np.poly(closed) - wanted)) / np.max(np.abs(wanted))
+        error = np.max(np.abs(np.poly(closed) - desired)) / np.max(np.abs(desired))
         assert error < 1e-13 * actual.condition_u * max(1.0, np.linalg.norm(closed, 2))
-        assert pole_error(block_companion(coefficients), np.roots(wanted)) < 1e-6
+        assert pole_error(block_companion(coefficients), np.roots(desired)) < 1e-6
 
 
 @pytest.mark.parametrize(("states", "inputs"), CLASS)
@@ -131,10 +131,10 @@ def test_places_every_draw_with_ackermanns_gain(states: int, inputs: int) -> Non
 def test_one_input_is_the_formula_of_the_textbook() -> None:
     """k = (alpha - a) (U W)^-1, W the upper triangular Toeplitz matrix of the open loop's coefficients."""
     for a, b, _, poles in random_systems(either(50, 6), 4, 1, seed=5):
-        own, wanted = np.poly(a)[1:], np.poly(poles).real[1:]
+        own, desired = np.poly(a)[1:], np.poly(poles).real[1:]
         toeplitz = np.eye(4) + sum(own[i] * np.eye(4, k=i + 1) for i in range(3))
         controllability = np.hstack([np.linalg.matrix_power(a, i) @ b for i in range(4)])
-        expected = (wanted - own) @ np.linalg.inv(controllability @ toeplitz)
+        expected = (desired - own) @ np.linalg.inv(controllability @ toeplitz)
         actual = bass_gura(a, b, Spectrum.of(poles, 4))
         np.testing.assert_allclose(actual.gain[0], expected, rtol=1e-12 * actual.condition_u)
 

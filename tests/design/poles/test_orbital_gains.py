@@ -32,9 +32,9 @@ def cross_matrix(v: np.ndarray) -> np.ndarray:
 
 def plant() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return A, B, C."""
-    inverse, wanted, up = np.linalg.inv(INERTIA), np.array([0.0, 0.0, -ORBIT]), np.array([0.0, 1.0, 0.0])
+    inverse, desired, up = np.linalg.inv(INERTIA), np.array([0.0, 0.0, -ORBIT]), np.array([0.0, 1.0, 0.0])
     kinematics = np.array([[0.0, -ORBIT, 0.0], [ORBIT, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    gyroscopic = inverse @ (cross_matrix(INERTIA @ wanted) - cross_matrix(wanted) @ INERTIA)
+    gyroscopic = inverse @ (cross_matrix(INERTIA @ desired) - cross_matrix(desired) @ INERTIA)
     tilt = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
     gradient = 3.0 * ORBIT**2 * inverse @ (cross_matrix(up) @ INERTIA - cross_matrix(INERTIA @ up)) @ tilt
     return np.block([[kinematics, I3], [gradient, gyroscopic]]), np.vstack([ZERO, inverse]), I6[MEASURED]
@@ -105,8 +105,8 @@ def test_observer_4_discrete_of_full_order() -> None:
     slow, fast = np.exp(-0.1 * PERIOD), np.exp(-1.0 * PERIOD)
     dual = modal.place_levels(sampled.T, C.T, [fast * np.eye(5), [[slow]]])
     gain = np.linalg.solve(sampled, dual.gain.T)
-    seen = C @ sampled @ I6[YAW]
-    row = (sampled[YAW, YAW] - slow) * seen / (seen @ seen)
+    observed = C @ sampled @ I6[YAW]
+    row = (sampled[YAW, YAW] - slow) * observed / (observed @ observed)
     expected = (I6 - fast * np.linalg.inv(sampled)) @ (C.T + np.outer(I6[YAW], row))
     np.testing.assert_allclose(gain, expected, rtol=1e-8, atol=1e-10)
     np.testing.assert_allclose(gain[YAW], [-16.3151, 0.0, 0.0, 0.1637, 0.0], atol=5.5e-5)
@@ -119,7 +119,7 @@ def test_observer_4_discrete_of_full_order() -> None:
 
 def test_a_tick_of_pulses_about_the_wanted_state() -> None:
     """Derivatives of the whole motion over a tick, split at the switch-offs, equal expm(A T)."""
-    wanted = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBIT])
+    desired = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBIT])
 
     def rate(x: np.ndarray, u: np.ndarray) -> np.ndarray:
         (sg, sy, st), (cg, cy, ct) = np.sin(x[:3]), np.cos(x[:3])
@@ -137,6 +137,6 @@ def test_a_tick_of_pulses_about_the_wanted_state() -> None:
     h = 1e-4
     for i in range(6):
         one, other = (
-            modal.pulsed_step(rate, wanted + step * I6[i], [0.05, 0.1, 0.2], np.zeros(3), PERIOD) for step in (h, -h)
+            modal.pulsed_step(rate, desired + step * I6[i], [0.05, 0.1, 0.2], np.zeros(3), PERIOD) for step in (h, -h)
         )
         np.testing.assert_allclose((one - other) / (2.0 * h), expm(A * PERIOD)[:, i], atol=3e-9)

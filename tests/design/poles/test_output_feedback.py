@@ -125,9 +125,9 @@ def test_plants_with_modes_out_of_reach() -> None:
     with pytest.raises(modal.PlacementError, match="not controllable") as refused:
         modal.output_feedback(apart, np.vstack([b, np.zeros((1, 2))]), np.eye(5)[:4], poles, method="direct")
     assert refused.value.number < 1e-12
-    seen = np.hstack([c, np.zeros((4, 1))])
+    observed = np.hstack([c, np.zeros((4, 1))])
     with pytest.raises(modal.PlacementError, match=r"not observable|X does not have full column rank"):
-        modal.output_feedback(apart, np.vstack([b, np.ones((1, 2))]), seen, poles, method="direct")
+        modal.output_feedback(apart, np.vstack([b, np.ones((1, 2))]), observed, poles, method="direct")
 
 
 @pytest.mark.parametrize(

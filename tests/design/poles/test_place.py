@@ -72,8 +72,8 @@ def test_levels_in_the_coordinates_that_are_given() -> None:
 
 def test_levels_without_bases_have_the_spectra() -> None:
     a, b, _, _ = next(random_systems(1, 5, 2))
-    wanted = [np.array([[-1.0, 2.0], [-2.0, -1.0]]), np.diag([-3.0, -4.0]), [[-5.0]]]
-    actual = modal.place_levels(a, b, wanted)
+    desired = [np.array([[-1.0, 2.0], [-2.0, -1.0]]), np.diag([-3.0, -4.0]), [[-5.0]]]
+    actual = modal.place_levels(a, b, desired)
     assert_placed(a - b @ actual.gain, np.array([-1 + 2j, -1 - 2j, -3, -4, -5]))
 
 
@@ -136,15 +136,15 @@ def test_wrong_input_is_one_line(arguments: tuple, options: dict, line: str) -> 
 
 def test_wrong_levels_are_one_line() -> None:
     a, b, eye = np.eye(4, k=2), np.eye(4)[:, 2:], np.eye(4)
-    wanted = [-np.eye(2), -np.eye(2)]
+    desired = [-np.eye(2), -np.eye(2)]
     for matrices, bases, problem in (
-        (wanted[:1], None, "give one for each level, of sizes 2, 2"),
+        (desired[:1], None, "give one for each level, of sizes 2, 2"),
         ([-np.eye(2), [[-1.0]]], None, r"matrices\[1\]: it is 1 by 1; give 2 by 2 numbers"),
-        (wanted, [eye[:, 2:], eye[:, 2:]], "together they are not an orthonormal basis"),
-        (wanted, [eye[:, 2:], eye[:, :1]], "together they are not an orthonormal basis"),
-        (wanted, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are not an orthonormal basis"),
-        (wanted, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of the states that drive it"),
-        (wanted, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 states where the rank is 2"),
+        (desired, [eye[:, 2:], eye[:, 2:]], "together they are not an orthonormal basis"),
+        (desired, [eye[:, 2:], eye[:, :1]], "together they are not an orthonormal basis"),
+        (desired, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are not an orthonormal basis"),
+        (desired, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of the states that drive it"),
+        (desired, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 states where the rank is 2"),
     ):
         with pytest.raises(InputError, match=problem):
             modal.place_levels(a, b, matrices, bases=bases)

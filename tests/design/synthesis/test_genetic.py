@@ -130,13 +130,13 @@ def test_a_renewal_takes_the_chosen_law_as_basis_and_keeps_the_elites():
 
 
 def test_no_law_is_evaluated_twice():
-    seen = set()
+    recorded = set()
 
     class Watched(FormulaEvaluator):
         def evaluate(self, tasks, bar):
             for task in tasks:
-                assert (task.law.key, task.known.flown) not in seen
-                seen.add((task.law.key, task.known.flown))
+                assert (task.law.key, task.known.flown) not in recorded
+                recorded.add((task.law.key, task.known.flown))
             return super().evaluate(tasks, bar)
 
     finished(6, evaluator=Watched(near))

@@ -93,5 +93,5 @@ def test_the_whole_model_needs_a_gain_that_nobody_would_fly():
     a, b, c = whole_model()
     gain = whole_gain()
     assert np.linalg.norm(gain) == pytest.approx(1.6e6, rel=0.02)
-    wanted = np.sort_complex([*np.diag(UPPER), *LOWER])
-    assert np.sort_complex(np.linalg.eigvals(a + b @ gain @ c)) == pytest.approx(wanted, abs=1e-6)
+    desired = np.sort_complex([*np.diag(UPPER), *LOWER])
+    assert np.sort_complex(np.linalg.eigvals(a + b @ gain @ c)) == pytest.approx(desired, abs=1e-6)

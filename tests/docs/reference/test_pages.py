@@ -151,8 +151,8 @@ def test_the_page_of_a_function_has_its_keywords(pages, name):
     keywords = {each.name: repr(each.default) for each in parameters if each.kind is each.KEYWORD_ONLY}
     rows = {row[0]: row[1] for row in re.findall(r"^\| `(\w+)` \| (.*?) (?<!\\)\| ", page, re.MULTILINE)}
     assert list(rows) == list(keywords)
-    given = {name: text for name, text in keywords.items() if text not in ("()", "{}", "mappingproxy({})")}
-    assert all(rows[name].endswith(f"default {escaped(text)}") for name, text in given.items())
+    settings = {name: text for name, text in keywords.items() if text not in ("()", "{}", "mappingproxy({})")}
+    assert all(rows[name].endswith(f"default {escaped(text)}") for name, text in settings.items())
     assert f"perilune.{name}(" in page
 
 

@@ -124,13 +124,13 @@ def odd(fmus):
 
 def test_odd_signals(odd):
     run, names = odd
-    seen = {group.names[0]: (group, chart) for group, chart in charts_of(run)}
+    observed = {group.names[0]: (group, chart) for group, chart in charts_of(run)}
     for name in names:
-        group, chart = seen[name]
+        group, chart = observed[name]
         assert plain(chart) == plain(read_back(group, run, reduced=False)), name
-    assert seen[names[3]][1].notes[0].text == "no finite value"
-    assert seen[names[0]][1].notes[0].text.startswith("clipped; full range ")
-    assert seen[names[2]][1].curves[0].marker is not None
+    assert observed[names[3]][1].notes[0].text == "no finite value"
+    assert observed[names[0]][1].notes[0].text.startswith("clipped; full range ")
+    assert observed[names[2]][1].curves[0].marker is not None
 
 
 def test_the_picture_has_the_texts_and_points_of_the_chart(odd):

@@ -53,9 +53,9 @@ def test_tables_have_every_block_and_connection(page_of):
     blocks, connections, parameters = parse(page_of(LARGEST).read_text(encoding="utf-8")).xpath("//table")
     names = [row[0].text for row in blocks.xpath(".//tbody/tr")]
     assert names == [each.get("name") for each in ssd.iter("{*}Component")]
-    given = sum(len(row[3].text_content().split(", ")) for row in parameters.xpath(".//tbody/tr"))
+    values = sum(len(row[3].text_content().split(", ")) for row in parameters.xpath(".//tbody/tr"))
     plotted = sum(int(row[2].text_content()) for row in connections.xpath(".//tbody/tr"))
-    assert plotted + given == len(list(ssd.iter("{*}Connection")))
+    assert plotted + values == len(list(ssd.iter("{*}Connection")))
     units = {row[0].text: row[3].text for row in connections.xpath(".//tbody/tr")}
     assert (units["plant.position[3]"], units["plant.specific_force[3]"]) == ("m", "m/s²")
 

@@ -33,7 +33,7 @@ def fly(direction):
     return rotation, flown(**signals)
 
 
-def seen(point):
+def project_point(point):
     """Return the picture point by a pinhole camera 3.6 diagonals from the body, 2.5 rad about z
     from x and 0.25 rad above."""
     away = np.array([np.cos(0.25) * np.cos(2.5), np.cos(0.25) * np.sin(2.5), np.sin(0.25)])
@@ -59,7 +59,7 @@ def test_an_arrow_ends_where_a_pinhole_camera_sees_it(frame, length):
         along = rotation.apply(unit) if frame else unit
         metres = length or 0.3 * 2.0 * TANGENT * 3.6 * np.linalg.norm(SIZE)
         (tip, faint) = arrow_tips(svg)
-        assert tip == pytest.approx(seen(POINT + metres * along), abs=ROUNDED)
+        assert tip == pytest.approx(project_point(POINT + metres * along), abs=ROUNDED)
         assert (tip == faint).all()
 
 

@@ -35,14 +35,14 @@ def instants(rows):
 @pytest.fixture(scope="module")
 def flights(fmus):
     """Return a function from a system to flight, scene as declared, and document of the page; each simulated once."""
-    made = {}
+    created = {}
 
     def flight_of(name):
-        if name not in made:
+        if name not in created:
             result = perilune.simulate(name)
             (declared,) = (figure for figure in result.figures if isinstance(figure, SceneFigure))
-            made[name] = (result, declared, embed("scene", "scene", scene_view(declared, result)))
-        return made[name]
+            created[name] = (result, declared, embed("scene", "scene", scene_view(declared, result)))
+        return created[name]
 
     return flight_of
 

@@ -70,13 +70,13 @@ def test_same_report_same_bytes(report, page, studies, tmp_path):
 def test_verdict_comes_first_with_every_requirement(report, page):
     headings = [element.text for element in parse(page).xpath("//h2")]
     assert headings == ["Verdict", "Margins", "Operating points", "Loops", "Over parameters", "What was studied"]
-    wanted = [item for loop in report.loops for item in loop.requirements]
-    wanted += [item for loop in report.loops if loop.dispersion for item in loop.dispersion.requirements]
-    wanted += [item for joint in report.joint for item in joint.requirements]
-    failing = [item for item in wanted if item.passed is False]
-    assert (len(wanted), len(failing)) == (25, 6)  # 3 of the campaign, 3 of the relay's loop
+    required = [item for loop in report.loops for item in loop.requirements]
+    required += [item for loop in report.loops if loop.dispersion for item in loop.dispersion.requirements]
+    required += [item for joint in report.joint for item in joint.requirements]
+    failing = [item for item in required if item.passed is False]
+    assert (len(required), len(failing)) == (25, 6)  # 3 of the campaign, 3 of the relay's loop
     tables = section_of(page, "Verdict").xpath(".//table")
-    for table, items in zip(tables, (failing, wanted), strict=True):
+    for table, items in zip(tables, (failing, required), strict=True):
         listed = [(row[3], row[5], row[6]) for row in rows_in(table)]
         words = {True: "✓ pass", False: "✗ fail", None: f"{NONE} not applicable"}
         units = {"1": "", "dB": " dB", "deg": " deg"}
@@ -183,8 +183,8 @@ def test_joint_margins_ask_for_stability(studies, page, tmp_path):
     assert {item.value for item in studies.wild_pair.joint[0].requirements} == {UNSTABLE}
     (limit,) = joint_chart(joint).rules
     gain, phase = 10.0 ** (3.0 / 20.0), math.radians(20.0)
-    wanted = max(2.0 * (gain - 1.0) / (gain + 1.0), 2.0 * math.tan(phase / 2.0))
-    assert limit.at == pytest.approx(wanted)
+    required = max(2.0 * (gain - 1.0) / (gain + 1.0), 2.0 * math.tan(phase / 2.0))
+    assert limit.at == pytest.approx(required)
 
 
 def test_a_sweep_into_instability(studies, page):

@@ -87,10 +87,10 @@ class Walk:
         return values if variable.shape else values[0]
 
     def set(self, **values: Any) -> None:
-        for name, given in values.items():
+        for name, settings in values.items():
             variable = self.variables[name]
             kind = {"Enumeration": "Int64"}.get(variable.type, variable.type)
-            elements = list(given) if variable.shape else [given]
+            elements = list(settings) if variable.shape else [settings]
             getattr(self.slave, f"set{kind}")([variable.valueReference], elements)
 
     def start(self, time: float = 0.0) -> None:
@@ -143,8 +143,8 @@ def test_it_steps_as_the_block_in_python(walk: Walk) -> None:
     for n in range(100):
         values = {"x": [0.1 * n, 1.0, -1.0], "on": n % 7 != 0, "way": int(n % 11 != 0), "k": -1}
         walk.set(**values)
-        for name, given in values.items():
-            setattr(plain.block, name, vector(*given) if name == "x" else given)
+        for name, settings in values.items():
+            setattr(plain.block, name, vector(*settings) if name == "x" else settings)
         assert walk.slave.doStep(n * 0.1, 0.1) == (False, False, False, n * 0.1 + 0.1)
         plain.do_step(n * 0.1, 0.1)
         for name in ("total", "product", "last_way", "samples"):

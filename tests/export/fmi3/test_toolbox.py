@@ -52,8 +52,8 @@ def make_container(folder: Path) -> Path:
         "link": [[guidance, "command", switch, "braking"]],
     }
     (folder / "container.json").write_text(json.dumps(described))
-    made = assembly.Assembly("container.json", fmu_directory=folder, default_step_size=STEP)
-    made.make_fmu(fmi_version=3)
+    created = assembly.Assembly("container.json", fmu_directory=folder, default_step_size=STEP)
+    created.make_fmu(fmi_version=3)
     return folder / "container.fmu"
 
 
@@ -63,10 +63,10 @@ class Jacobi:
     def __init__(self) -> None:
         self.guidance, self.switch = BlockInstance(GUIDANCE), BlockInstance(SWITCH)
 
-    def set(self, name: str, given: Any) -> None:
+    def set(self, name: str, values: Any) -> None:
         for component in (self.guidance, self.switch):
             if name in component.block.variables:
-                setattr(component.block, name, given)
+                setattr(component.block, name, values)
                 return
         raise KeyError(name)
 
@@ -85,8 +85,8 @@ class Jacobi:
         self.exchange()
 
 
-def elements(given: Any) -> list:
-    return list(given) if hasattr(given, "__len__") else [given]
+def elements(values: Any) -> list:
+    return list(values) if hasattr(values, "__len__") else [values]
 
 
 def test_a_container_has_the_bits_of_its_blocks(tmp_path: Path) -> None:

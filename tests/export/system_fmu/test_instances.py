@@ -55,8 +55,8 @@ def test_a_state_goes_on_in_another_process(fmu, tmp_path):
         "slave.fmu.setFMUstate(slave.fmu.deSerializeFMUstate(state)); slave.time = time\n"
         "sys.stdout.buffer.write(pickle.dumps(fly(slave, 200)))\n"
     )
-    given = pickle.dumps((fmu, tmp_path / "other", slave.time - 200 * STEP, serialised))
-    ended = subprocess.run([sys.executable, "-c", program], input=given, stdout=subprocess.PIPE, check=True, cwd=ROOT)
+    values = pickle.dumps((fmu, tmp_path / "other", slave.time - 200 * STEP, serialised))
+    ended = subprocess.run([sys.executable, "-c", program], input=values, stdout=subprocess.PIPE, check=True, cwd=ROOT)
     assert np.array_equal(pickle.loads(ended.stdout), whole)
     slave.fmu.setFMUstate(state)
     slave.time -= 200 * STEP

@@ -49,8 +49,8 @@ def test_random_graphs(tiny_folder, tmp_path_factory, graph):
 
         def at(time: float) -> dict[str, float]:
             active = {fault: fault.start - 1e-9 <= time < fault.stop - 1e-9 for fault in faults}
-            given = {f"fault.{fault.name}.kind": kinds[fault.kind] * active[fault] for fault in faults}
-            return given | {f"fault.{fault.name}.value": fault.value for fault in faults}
+            assigned = {f"fault.{fault.name}.kind": kinds[fault.kind] * active[fault] for fault in faults}
+            return assigned | {f"fault.{fault.name}.value": fault.value for fault in faults}
 
         rows, ended = [], False
         try:

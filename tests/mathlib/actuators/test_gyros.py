@@ -156,12 +156,12 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
     """Off the law as well: the residual's derivative along the rates is -gain times it, the momentum's is exact."""
     random = np.random.default_rng([seed, 7])
     angles = np.array(lawful_angles(size * direction(seed))) + off * random.normal(size=4)
-    wanted, gain = random.normal(size=3), 0.2
-    lawful, rates = distribute_rates(vector(*angles), vector(*wanted), RHO, gain, 0.02)
+    desired, gain = random.normal(size=3), 0.2
+    lawful, rates = distribute_rates(vector(*angles), vector(*desired), RHO, gain, 0.02)
     if not lawful:
         return
     scale = 1.0 + np.abs(np.array(rates)).max()
-    assert matrix(angles) @ np.array(rates) == pytest.approx(wanted, abs=1e-13 * scale)
+    assert matrix(angles) @ np.array(rates) == pytest.approx(desired, abs=1e-13 * scale)
     change = residual(angles + 1e-30j * np.array(rates)).imag / 1e-30
     across = np.sin(angles[::2]) + np.sin(angles[1::2])
     steep = 1.0 / (4.0 - np.square(across).max()) ** 1.5  # the law's slope where a pair is nearly all across
@@ -169,10 +169,10 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
 
 
 def test_rates_on_the_law_are_the_derivatives_of_its_angles():
-    momentum, wanted = np.array([0.4, -0.9, 0.7]), np.array([0.01, 0.02, -0.015])
-    lawful, rates = distribute_rates(lawful_angles(momentum), vector(*wanted), RHO, 0.2, 0.02)
+    momentum, desired = np.array([0.4, -0.9, 0.7]), np.array([0.01, 0.02, -0.015])
+    lawful, rates = distribute_rates(lawful_angles(momentum), vector(*desired), RHO, 0.2, 0.02)
     assert lawful
-    before, after = (np.array(lawful_angles(momentum + k * 1e-4 * wanted)) for k in (-1.0, 1.0))
+    before, after = (np.array(lawful_angles(momentum + k * 1e-4 * desired)) for k in (-1.0, 1.0))
     assert rates == pytest.approx((after - before) / 2e-4, abs=1e-10)
 
 
@@ -180,20 +180,20 @@ def test_rates_on_the_law_are_the_derivatives_of_its_angles():
     "angles", [[0.0] * 4, [0.0, math.pi, 0.3, 0.2], [1.0, -1.0, 0.5, 0.5], [math.pi / 2] * 2 + [1.0, 2.0]]
 )
 def test_law_is_refused_in_singular_states(angles):
-    wanted = vector(0.1, 0.1, 0.1)
-    assert not distribute_rates(vector(*angles), wanted, RHO, 0.2, 0.02)[0]
-    assert not distribute_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # without a margin
+    desired = vector(0.1, 0.1, 0.1)
+    assert not distribute_rates(vector(*angles), desired, RHO, 0.2, 0.02)[0]
+    assert not distribute_rates(ISOTROPIC, desired, RHO, 0.2, 0.0)[0]  # without a margin
 
 
 @given(seeds)
 @settings(max_examples=either(200, 16), deadline=None)
 def test_robust_rates_are_the_pseudo_inverse_away_from_singular_states(seed):
     random = np.random.default_rng(seed)
-    angles, wanted = random.uniform(-4.0, 4.0, 4), random.normal(size=3)
-    rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, 0.1, 3.3)
+    angles, desired = random.uniform(-4.0, 4.0, 4), random.normal(size=3)
+    rates, measure = robust_rates(vector(*angles), vector(*desired), 0.05, 0.5, 0.1, 3.3)
     assert measure == pytest.approx(singularity_measure(vector(*angles)), rel=1e-12)
     if measure >= 0.5:
-        assert rates == pytest.approx(np.linalg.pinv(matrix(angles)) @ wanted, abs=1e-11)
+        assert rates == pytest.approx(np.linalg.pinv(matrix(angles)) @ desired, abs=1e-11)
 
 
 @given(seeds, st.sampled_from([0.0, 0.2, 0.45]), st.floats(0.0, 10.0))
@@ -202,23 +202,23 @@ def test_robust_rates_near_singular_states_solve_the_damped_problem(seed, swing,
     """Against numpy's solution of A W A' + k E; bounded by |A|/k times the demanded rate."""
     random = np.random.default_rng(seed)
     angles = np.repeat(random.uniform(-4.0, 4.0, 2), 2) + random.normal(size=4) * 10.0 ** random.uniform(-9.0, -1.0)
-    wanted = random.normal(size=3)
-    rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, swing, time)
+    desired = random.normal(size=3)
+    rates, measure = robust_rates(vector(*angles), vector(*desired), 0.05, 0.5, swing, time)
     lack = max(0.0, 1.0 - measure / 0.5)
     weights = np.diag([1.0 + swing * lack, 1.0 - swing * lack] * 2)
     e1, e2, e3 = (swing * math.sin(0.5 * math.pi * (time + phase)) for phase in range(3))
     damping = np.array([[1.0, e3, e2], [e3, 1.0, e1], [e2, e1, 1.0]])
     jacobian = matrix(angles)
     damped = jacobian @ weights @ jacobian.T + 0.05 * lack**2 * damping
-    expected = weights @ jacobian.T @ np.linalg.solve(damped, wanted)
+    expected = weights @ jacobian.T @ np.linalg.solve(damped, desired)
     assert rates == pytest.approx(expected, abs=1e-9)
-    assert np.linalg.norm(rates) < 100.0 * np.linalg.norm(wanted)
+    assert np.linalg.norm(rates) < 100.0 * np.linalg.norm(desired)
 
 
 @pytest.mark.parametrize("angles", [[0.0] * 4, [0.0, math.pi, 0.0, math.pi], [math.pi / 2, -math.pi / 2] * 2])
 def test_robust_rates_are_finite_in_singular_states(angles):
-    for wanted in np.vstack([np.eye(3), -np.eye(3), np.zeros(3)]):
-        rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, 0.1, 0.3)
+    for desired in np.vstack([np.eye(3), -np.eye(3), np.zeros(3)]):
+        rates, measure = robust_rates(vector(*angles), vector(*desired), 0.05, 0.5, 0.1, 0.3)
         assert measure < 1e-6
         assert np.isfinite(np.array(rates)).all()
     rates, measure = robust_rates(vector(*angles), vector(1.0, 1.0, 1.0), 0.0, 0.0, 0.0, 0.0)  # no damping: none at all

@@ -42,7 +42,7 @@ LIMITS = TransferLimits.of_elements([0.9 * 5099.0, 0.1 * 5099.0, math.radians(0.
 DERIVATIVES = (transfer_position, transfer_velocity, transfer_acceleration, transfer_jerk, transfer_snap)
 
 
-def made(start, goal, duration):
+def make_transfer(start, goal, duration):
     """Return the transfer, and scipy's polynomial."""
     c = transfer(*(vector(*v) for v in start), vector(*goal), duration)
     ends = [list(map(np.array, start)), [np.array(goal), np.zeros(3), np.zeros(3), np.zeros(3)]]
@@ -51,7 +51,7 @@ def made(start, goal, duration):
 
 @given(triples, triples, triples, triples, triples, durations, st.floats(0.0, 1.0))
 def test_position_and_derivatives(place, speed, acceleration, jerk, goal, duration, s):
-    c, truth = made([place, speed, acceleration, jerk], goal, duration)
+    c, truth = make_transfer([place, speed, acceleration, jerk], goal, duration)
     scale = 1.0 + max(abs(x) for x in c.elements())
     for order, derivative in enumerate(DERIVATIVES):
         expected = (truth.derivative(order) if order else truth)(s * duration)
@@ -65,7 +65,7 @@ GOAL = [-1500.0, 100.0, 2400.0]
 
 @pytest.mark.parametrize("t", [0.0, 3.0, 17.0, 40.0])
 def test_thrust_its_direction_and_rates(t):
-    c, truth = made(START, GOAL, 40.0)
+    c, truth = make_transfer(START, GOAL, 40.0)
 
     def direction(time):
         f = truth.derivative(2)(time) + np.array(LIFT)
@@ -127,7 +127,7 @@ def excess_by_hand(truth, duration, mass):
 
 @pytest.mark.parametrize("duration", [15.0, 40.0, 120.0])
 def test_expense(duration):
-    c, truth = made(START, GOAL, duration)
+    c, truth = make_transfer(START, GOAL, duration)
     actual = expense(c, duration, LIFT, 560.0, LIMITS, math.inf)
     expected, worst = excess_by_hand(truth, duration, 560.0)
     assert actual.impulse == pytest.approx(expected, rel=2e-3)
@@ -141,7 +141,9 @@ def test_capture_is_the_cheapest_of_all_durations():
     prices = {}
     for k in range(TRIALS):
         trial = FIRST * GROWTH**k
-        expected, worst = excess_by_hand(made(START, GOAL, trial)[1], trial, 560.0) if k % 10 == 0 else (None, None)
+        expected, worst = (
+            excess_by_hand(make_transfer(START, GOAL, trial)[1], trial, 560.0) if k % 10 == 0 else (None, None)
+        )
         other = transfer(*start, vector(*GOAL), trial)
         actual = expense(other, trial, LIFT, 560.0, LIMITS, math.inf)
         prices[trial] = actual.impulse + 1000.0 * actual.excess

@@ -61,7 +61,7 @@ def test_derivatives_of_the_rates_are_those_of_differences(angles, w):
 
 
 def test_the_linear_model_is_the_derivative_of_the_motion():
-    wanted = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBITAL_RATE])
+    desired = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBITAL_RATE])
     inverse = Matrix(np.linalg.inv(INERTIA).tolist())
 
     def motion(x):
@@ -72,7 +72,7 @@ def test_the_linear_model_is_the_derivative_of_the_motion():
         )
 
     h = 1e-4
-    columns = [(motion(wanted + h * e) - motion(wanted - h * e)) / (2.0 * h) for e in np.eye(6)]
+    columns = [(motion(desired + h * e) - motion(desired - h * e)) / (2.0 * h) for e in np.eye(6)]
     assert np.abs(model(INERTIA) - np.array(columns).T).max() < 1e-10
 
 

@@ -121,10 +121,10 @@ def test_inputs_from_a_file_that_fmpy_wrote(fmus, tmp_path):
     fmpy.write_csv(path, series)
     assert ",True" in path.read_text()
     written = perilune.simulate(fmus["follower"], input=path, step=STEP, stop_time=STOP)
-    given = perilune.simulate(fmus["follower"], input=series, step=STEP, stop_time=STOP)
+    settings = perilune.simulate(fmus["follower"], input=series, step=STEP, stop_time=STOP)
     columns = {f"Follower.{name}" if name != "time" else name: series[name] for name in series.dtype.names}
     named = perilune.simulate(fmus["follower"], input=columns, step=STEP, stop_time=STOP)
-    for name, values in given.signals.items():
+    for name, values in settings.signals.items():
         assert np.array_equal(written[name], values)
         assert np.array_equal(named[name], values)
     assert written.provenance["input"]["signals"] == [f"Follower.{name}" for name in ("u", "d", "n", "b")]

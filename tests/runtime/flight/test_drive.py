@@ -73,7 +73,7 @@ def test_what_is_driven_need_not_be_set(tiny, tmp_path):
 
 
 def test_as_a_component_that_makes_the_signal(tiny, tmp_path):
-    made = pack(
+    created = pack(
         tmp_path / "made.ssp",
         tiny,
         document(
@@ -85,7 +85,7 @@ def test_as_a_component_that_makes_the_signal(tiny, tmp_path):
             )
         ),
     )
-    expected = fly(made, None)
+    expected = fly(created, None)
     driven = fly(gains(tiny, tmp_path), {"time": RAMP["time"], "u": [0.001, 0.003]}, open_inputs="start")
     for name in ("gain.y", "delay.y"):
         np.testing.assert_allclose(driven[name], expected[name], rtol=1e-15)

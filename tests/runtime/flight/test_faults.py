@@ -44,27 +44,27 @@ KINDS = [("override", 9.0, [9.0, 9.0]), ("bias", 0.5, [2.0, 2.5]), ("freeze", 0.
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_an_output_every_reader_sees_it(flown, kind, value, inside):
     actual = flown(Fault("ramp.y", kind, value, 0.25, 0.75))
-    seen = [1.0, *inside, 2.5, 3.0]
-    assert actual["ramp.y"] == actual["gain.u"] == actual["twin.u"] == actual["delay.u"] == seen
-    assert actual["gain.y"] == [3 * y for y in seen]
-    assert actual["delay.y"] == [5.0, *seen[:-1]]
+    observed = [1.0, *inside, 2.5, 3.0]
+    assert actual["ramp.y"] == actual["gain.u"] == actual["twin.u"] == actual["delay.u"] == observed
+    assert actual["gain.y"] == [3 * y for y in observed]
+    assert actual["delay.y"] == [5.0, *observed[:-1]]
 
 
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_an_input_only_that_component_sees_it(flown, kind, value, inside):
     actual = flown(Fault("gain.u", kind, value, 0.25, 0.75))
-    seen = [1.0, *inside, 2.5, 3.0]
-    assert actual["gain.u"] == seen
-    assert actual["gain.y"] == [3 * y for y in seen]
+    observed = [1.0, *inside, 2.5, 3.0]
+    assert actual["gain.u"] == observed
+    assert actual["gain.y"] == [3 * y for y in observed]
     assert actual["ramp.y"] == actual["twin.u"] == actual["delay.u"] == TRUE
 
 
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_the_input_of_a_source(flown, kind, value, inside):
     actual = flown(Fault("delay.u", kind, value, 0.25, 0.75))
-    seen = [1.0, *inside, 2.5, 3.0]
-    assert actual["delay.u"] == seen
-    assert actual["delay.y"] == [5.0, *seen[:-1]]
+    observed = [1.0, *inside, 2.5, 3.0]
+    assert actual["delay.u"] == observed
+    assert actual["delay.y"] == [5.0, *observed[:-1]]
     assert actual["gain.u"] == TRUE
 
 
@@ -126,10 +126,10 @@ def test_other_faults_from_flight_to_flight(tiny, tmp_path):
         ((bias, hold), [1.0, 2.5, 3.0, 3.0, 3.0]),
     ]
     with Simulation(prepare_system(path), faults=(bias, hold)) as simulation:
-        for faults, seen in flights:
+        for faults, observed in flights:
             simulation.set_faults(faults)
             result = simulation.fly()
-            assert result["gain.u"].tolist() == seen
+            assert result["gain.u"].tolist() == observed
             assert result.provenance["faults"] == [str(fault) for fault in faults if fault is not None]
 
 

@@ -51,18 +51,18 @@ def test_early_returns_are_continued_to_the_communication_point(tmp_path):
 def test_events_are_those_of_fmpy(tmp_path):
     """FMPy takes a sample at each early return, too: at the communication points both have the same bits."""
     path = str(strict_fmu(tmp_path, events=True, is_lenient=True))
-    given = {"early": 0.07, "gain": [0.3, 0.7], "rounds": 2}
+    settings = {"early": 0.07, "gain": [0.3, 0.7], "rounds": 2}
     changes = np.array([(0.0, 0), (0.5, 0), (0.5, 3), (1.0, 3)], dtype=[("time", np.float64), ("d", np.int32)])
     expected = fmpy.simulate_fmu(
         path,
-        start_values=given,
+        start_values=settings,
         input=changes,
         output_interval=0.25,
         use_event_mode=True,
         early_return_allowed=True,
     )
     (tmp_path / "changes.csv").write_text("time,d\n0,0\n0.5,0\n0.5,3\n1,3")
-    values = {f"Strict.{name}": number for name, number in given.items()}
+    values = {f"Strict.{name}": number for name, number in settings.items()}
     flight = perilune.simulate(path, set=values, input=str(tmp_path / "changes.csv"))
     last = [int(np.flatnonzero(expected["time"] == time)[-1]) for time in flight.time]
     for element in (0, 1):
@@ -122,9 +122,9 @@ def test_messages_are_no_formats(tmp_path, capfd):
 
 def test_an_array_that_cannot_be_read_back_is_reported_once(tmp_path):
     path = str(strict_fmu(tmp_path, hides_gain=True))
-    given = {"Strict.gain": [4.0, 5.0], "Strict.rounds": 3}
+    settings = {"Strict.gain": [4.0, 5.0], "Strict.rounds": 3}
     with pytest.warns(UserWarning, match=r"strict\.fmu: gain cannot be read back: whether Strict takes its") as actual:
-        flight = perilune.simulate(path, set=given, in_process=True)
+        flight = perilune.simulate(path, set=settings, in_process=True)
     assert len(actual) == 1
     assert flight["Strict.y"][-1].tolist() == [2.0, 1.25]
 

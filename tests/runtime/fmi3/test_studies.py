@@ -77,8 +77,8 @@ def test_margins_of_a_loop_of_both_versions(tmp_path):
         connections=connection("law.y", "plant.u[1]") + connection("plant.y[1]", "law.u"),
     )
     path = pack(tmp_path / "loop.ssp", tmp_path, document(root, stop=10.0, step=step))
-    given = {"plant.n": 1, "plant.gain": 1.0}
-    study = perilune.stability(path, loops=["law.y"], at=1.0, feedthrough=["law"], set=given)
+    values = {"plant.n": 1, "plant.gain": 1.0}
+    study = perilune.stability(path, loops=["law.y"], at=1.0, feedthrough=["law"], set=values)
     (loop,) = study.loops
     size = gain * step
     assert decibel_size(loop.classical.gain_margin.value) == pytest.approx(-20.0 * math.log10(size), abs=0.01)

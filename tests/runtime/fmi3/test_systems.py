@@ -90,13 +90,13 @@ def test_elements_of_an_array_from_fmus_of_both_versions(tmp_path):
         stop=4.0,
         step=1.0,
     )
-    given = {
+    settings = {
         "two.Float64_continuous_input": 5.0,
         "three.Float64_continuous_input": -1.0,
         "space.A": [0, 1, 0, 0, 0, 1, 0, 0, 0],
         "space.D": [0] * 9,
     }
-    flight = perilune.simulate(path, set=given, no_feedthrough=["space"])
+    flight = perilune.simulate(path, set=settings, no_feedthrough=["space"])
     matrix = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
     values = np.array([solved(matrix, np.array([5.0, -1.0, 3.0]), n) for n in range(5)])
     for element in (1, 3):
@@ -113,7 +113,7 @@ def test_state_space_of_other_sizes_against_the_matrix_exponential(order, inputs
     entry[0] = 0.25
     drive = np.arange(1.0, inputs + 1)
     output = np.arange(1.0, inputs * order + 1).reshape(inputs, order)
-    given = {
+    settings = {
         "StateSpace.n": order,
         "StateSpace.m": inputs,
         "StateSpace.r": inputs,
@@ -124,7 +124,7 @@ def test_state_space_of_other_sizes_against_the_matrix_exponential(order, inputs
         "StateSpace.x0": [0.0] * order,
         "StateSpace.u": drive.tolist(),
     }
-    flight = perilune.simulate(path, set=given, stop_time=8.0, step=1.0, record=["x", "A"])
+    flight = perilune.simulate(path, set=settings, stop_time=8.0, step=1.0, record=["x", "A"])
     state = np.array([flight.signals[f"StateSpace.x[{each}]"] for each in range(1, order + 1)])
     outputs = np.array([flight.signals[f"StateSpace.y[{each}]"] for each in range(1, inputs + 1)])
     assert f"StateSpace.x[{order + 1}]" not in flight.signals

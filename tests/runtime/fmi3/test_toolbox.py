@@ -51,5 +51,5 @@ def test_starts_that_it_declares_in_its_own_way(container):
     """As elements, which the schema allows of texts only: a note says so, and they count."""
     (check,) = perilune.validate(container).checks
     assert any("Element 'Start'" in note for note in check.notes)
-    given = perilune.simulate(container, set={"box.u[1]": 4.0}, step=0.125, stop_time=1.0, record=["u"])
-    assert given["box.u"][-1].tolist() == [4.0, 0.25]
+    values = perilune.simulate(container, set={"box.u[1]": 4.0}, step=0.125, stop_time=1.0, record=["u"])
+    assert values["box.u"][-1].tolist() == [4.0, 0.25]

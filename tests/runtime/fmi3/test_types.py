@@ -56,8 +56,8 @@ def test_columns_of_whole_numbers_are_wide_enough(tmp_path):
 def test_whole_arrays_and_elements_are_set(tmp_path):
     """y' = gain u, constant: u as a whole; of gain an element, the other keeps its start; n sizes both."""
     path = str(strict_fmu(tmp_path))
-    given = {"Strict.n": 3, "Strict.gain": [4, 5, 6], "Strict.u": "1,2,3"}
-    whole = perilune.simulate(path, set=given)
+    settings = {"Strict.n": 3, "Strict.gain": [4, 5, 6], "Strict.u": "1,2,3"}
+    whole = perilune.simulate(path, set=settings)
     assert [whole.signals[f"Strict.y[{n}]"][-1] for n in (1, 2, 3)] == [4.0, 10.0, 18.0]
     part = perilune.simulate(path, set={"Strict.gain[1]": 8, "Strict.u": [1, 1]})
     assert [part.signals[f"Strict.y[{n}]"][-1] for n in (1, 2)] == [8.0, 2.0]
@@ -79,8 +79,8 @@ def test_sizes_in_the_bindings_of_a_description(tmp_path):
         component("second", "strict", "output y[4] Real", bindings=own_values),
         bindings=outer,
     )
-    given = {f"second.{array}[{element}]": 1.0 for array in ("gain", "u") for element in (1, 2, 3, 4)}
-    flight = perilune.simulate(str(pack(tmp_path / "t.ssp", tmp_path, document(root))), set=given)
+    settings = {f"second.{array}[{element}]": 1.0 for array in ("gain", "u") for element in (1, 2, 3, 4)}
+    flight = perilune.simulate(str(pack(tmp_path / "t.ssp", tmp_path, document(root))), set=settings)
     assert {name for name in flight.signals if ".y[" in name} == {
         "first.y[1]",
         *(f"second.y[{element}]" for element in (1, 2, 3, 4)),

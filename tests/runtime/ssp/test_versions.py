@@ -45,16 +45,18 @@ def test_each_document_has_a_version_for_itself(tiny, tmp_path, versions):
     description, values = versions
     ramp = component("ramp", "ramp", "output y Real m", external("resources/set.ssv"))
     text = document(system(ramp)).replace('version="1.0"', f'version="{description}"')
-    given = parameter_set("start=Real:4 m").replace('version="1.0"', f'version="{values}"')
-    assert fly(pack(tmp_path / "s.ssp", tiny, text, resources___set__ssv=given))["ramp.y"][0] == 4.0
+    settings = parameter_set("start=Real:4 m").replace('version="1.0"', f'version="{values}"')
+    assert fly(pack(tmp_path / "s.ssp", tiny, text, resources___set__ssv=settings))["ramp.y"][0] == 4.0
 
 
 def test_metadata_has_no_effect_and_signatures_are_noted(tiny, tmp_path):
     ramp = component("ramp", "ramp", "output y Real m", external("resources/set.ssv"))
-    given = in_version_2(parameter_set("start=Real:4 m")).replace("</ssv:ParameterSet>", f"{META}</ssv:ParameterSet>")
+    settings = in_version_2(parameter_set("start=Real:4 m")).replace(
+        "</ssv:ParameterSet>", f"{META}</ssv:ParameterSet>"
+    )
     text = in_version_2(document(system(ramp)))
     text = text.replace("</ssd:SystemStructureDescription>", f"{META}{SIGNATURE}</ssd:SystemStructureDescription>")
-    path = pack(tmp_path / "s.ssp", tiny, text, resources___set__ssv=given)
+    path = pack(tmp_path / "s.ssp", tiny, text, resources___set__ssv=settings)
     notes = prepare_system(path, SystemOptions()).network.notes
     unverified = [note for note in notes if note.endswith("authenticity, application/octet-stream: not verified")]
     assert ["set.ssv" in note for note in unverified].count(True) == 1

@@ -93,8 +93,8 @@ def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
     declared = "input n Enumeration Mode; output m Enumeration Mode"
     enumeration = "".join(f'<ssc:Item name="{name}" value="{value}"/>' for name, value in MODES.items())
     more = f'<ssd:Enumerations><ssc:Enumeration name="Mode">{enumeration}</ssc:Enumeration></ssd:Enumerations>'
-    for index, given in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
-        mode = component("mode", "mode", declared, inline(given))
+    for index, settings in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
+        mode = component("mode", "mode", declared, inline(settings))
         path = pack(tmp_path / f"{index}.ssp", tiny, document(system(mode), more=more))
         assert set(fly(path)["mode.m"]) == {7.0}
         assert [set(fly(path, set={"mode.n": item})["mode.m"]) for item in ("brake", "2", 2)] == [{2.0}] * 3
@@ -198,8 +198,10 @@ def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
     said = " ".join(capsys.readouterr().out.split())  # a longer path breaks the line elsewhere
     assert re.search(r"gain\.ParameterBinding \(line \d+\): its mapping has no entry for u: not applied", said)
-    given = fly(pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "output y Real m", binding)))))
-    assert set(given["gain.y"]) == {2.0 * 0.0}  # u keeps its start
+    settings = fly(
+        pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "output y Real m", binding))))
+    )
+    assert set(settings["gain.y"]) == {2.0 * 0.0}  # u keeps its start
 
 
 def test_a_constant_takes_no_value(tiny, tmp_path):

@@ -71,8 +71,8 @@ def test_a_parameter_of_a_system_goes_into_inputs_and_outputs(array_fmus, tmp_pa
         declared=f"{kind} m Integer; output total Integer",
         bindings=inline("m=Integer:5"),
     )
-    for given, expected in (({}, 5), ({"m": 9}, 9)):
-        run = fly(path, set=given)
+    for values, expected in (({}, 5), ({"m": 9}, 9)):
+        run = fly(path, set=values)
         np.testing.assert_array_equal(run["inner.counted.y"], [expected] * 5)
         np.testing.assert_array_equal(run["total"], [expected] * 5)
 

@@ -119,16 +119,16 @@ def test_noise_of_failures_is_distributed_as_noise_of_failures():
 
 def test_streams_are_never_given_twice():
     """Every flight whose noise is to be fresh has a stream that no flight before had."""
-    seen = []
+    recorded = []
 
     def margin(points):
-        seen.append(points.streams.copy())
+        recorded.append(points.streams.copy())
         return limit_state(np.ones(3), 1.0, 1e-3, 1)(points)
 
     actual = subset_simulation(margin, DIMENSIONS, 3, seed=1, samples=500)
-    first = seen[0]
+    first = recorded[0]
     assert np.array_equal(first, np.repeat(np.arange(500)[:, np.newaxis], 3, axis=1))
-    later = np.concatenate(seen[1:])
+    later = np.concatenate(recorded[1:])
     known, fresh = set(range(500)), []
     for row in later:
         fresh += [number for number in row.tolist() if number not in known]

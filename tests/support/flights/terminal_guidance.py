@@ -75,10 +75,10 @@ def flight(guidance_class, position, velocity, step, latch=True, most=5000, erro
         plant.thrust_direction_rate = guidance.thrust_direction_rate
         plant.command_time, plant.burn_duration = guidance.command_time, guidance.burn_duration
         plant.step(k * step, step)
-        seen = np.array([*plant.position, *plant.velocity])
+        observed = np.array([*plant.position, *plant.velocity])
         if error is not None:
-            seen = seen + error()
-        see(guidance, seen[:3], seen[3:])
+            observed = observed + error()
+        see(guidance, observed[:3], observed[3:])
         guidance.step(k * step, step)
         rows.append([(k + 1) * step, *plant.position, *plant.velocity])
     assert guidance.finished

@@ -115,13 +115,13 @@ class SampledLoop:
     @cached_property
     def state_space(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A, B, C of L with the states x, v, a_(k-1), y, g at a tick; there is no direct way."""
-        states, given = self.plant
+        states, values = self.plant
         decay, fraction, direct = self.lead
         a = np.zeros((5, 5))
         a[:4, :4] = states
-        a[:4, 4] = given * fraction
+        a[:4, 4] = values * fraction
         a[4, 4] = decay
-        return a, np.append(given * direct, 1.0), np.array([0.0, 0.0, 0.0, 1.0, 0.0])
+        return a, np.append(values * direct, 1.0), np.array([0.0, 0.0, 0.0, 1.0, 0.0])
 
     @cached_property
     def poles(self) -> np.ndarray:

@@ -35,9 +35,9 @@ def random_systems(
         )
 
 
-def pole_error(closed_loop: np.ndarray, wanted: np.ndarray) -> float:
+def pole_error(closed_loop: np.ndarray, desired: np.ndarray) -> float:
     """Return the largest distance between poles after optimal one-to-one matching."""
-    apart = np.abs(np.linalg.eigvals(closed_loop)[:, None] - np.asarray(wanted)[None, :])
+    apart = np.abs(np.linalg.eigvals(closed_loop)[:, None] - np.asarray(desired)[None, :])
     return float(np.max(apart[linear_sum_assignment(apart)]))
 
 
@@ -46,9 +46,9 @@ def kappa_of(closed_loop: np.ndarray) -> float:
     return float(np.linalg.cond(np.linalg.eig(closed_loop)[1]))
 
 
-def assert_placed(closed_loop: np.ndarray, wanted: np.ndarray, conditions: float = 1.0) -> bool:
+def assert_placed(closed_loop: np.ndarray, desired: np.ndarray, conditions: float = 1.0) -> bool:
     """Assert the general bounds, and 1e-10 where ``conditions`` and kappa are at most 1000; return if they are."""
-    error, kappa = pole_error(closed_loop, wanted), kappa_of(closed_loop)
+    error, kappa = pole_error(closed_loop, desired), kappa_of(closed_loop)
     assert error <= 1000.0 * EPS * kappa * np.linalg.norm(closed_loop, 2)
     well = kappa <= 1e3 and conditions <= 1e3
     assert error <= 1e-10 or not well

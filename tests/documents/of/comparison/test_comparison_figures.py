@@ -162,26 +162,26 @@ def test_a_command_in_the_last_row_is_left_out(batch, flights):
     assert bands_of(thrust, flights["alpha"]).time[-1] == flights["alpha"][0].time[-2]
 
 
-def made(rows, value=1.0, success=True, step=1.0):
+def make_flight(rows, value=1.0, success=True, step=1.0):
     return ComparedFlight(0, success, step * np.arange(rows), {"a.b": np.full(rows, value)}, False)
 
 
 def test_bands_end_where_few_still_fly():
     quantity = FlightQuantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"])
-    flights = [made(10) for _ in range(7)] + [made(20, 2.0)]
+    flights = [make_flight(10) for _ in range(7)] + [make_flight(20, 2.0)]
     bands = bands_of(quantity, flights)
     assert bands.time[-1] == 9.0  # one of eight is fewer than a quarter
-    assert bands_of(quantity, [made(10) for _ in range(3)] + [made(20, 2.0)]).time[-1] == 19.0
-    only_failed = bands_of(quantity, [made(10, success=False)])
+    assert bands_of(quantity, [make_flight(10) for _ in range(3)] + [make_flight(20, 2.0)]).time[-1] == 19.0
+    only_failed = bands_of(quantity, [make_flight(10, success=False)])
     assert (only_failed.flights, only_failed.failed) == (1, [])
-    assert bands_of(quantity, [made(1)]) is None
+    assert bands_of(quantity, [make_flight(1)]) is None
     assert bands_of(FlightQuantity("c", "c", None, "other", ("c",), lambda signals: signals["c"]), flights) is None
 
 
 def test_whole_numbers_are_held_and_others_interpolated():
     values = {"a.b": np.array([0.0, 1.0, 3.0])}
     coarse = ComparedFlight(0, True, np.array([0.0, 2.0, 4.0]), values, False)
-    fine = made(5, 0.0)
+    fine = make_flight(5, 0.0)
     for held, expected in ((True, [0.0, 0.0, 1.0, 1.0, 3.0]), (False, [0.0, 0.5, 1.0, 2.0, 3.0])):
         quantity = FlightQuantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"], held)
         bands = bands_of(quantity, [fine, coarse])

@@ -57,16 +57,16 @@ def test_every_section_and_figure_is_there(page):
 def test_every_variant_has_one_colour_everywhere(folder, page):
     colours = {label: look.colour for label, look in looks_of(compare([folder])).items()}
     assert len(set(colours.values())) == 3
-    seen = []
+    observed = []
     for figure in parse(page).xpath("//*[@class='panels']/figure"):
         label = figure.xpath("figcaption")[0].text_content().strip()
         if label in colours:
-            seen.append(label)
+            observed.append(label)
             plotted = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@stroke | .//@fill")).lower()))
             assert colours[label].lower() in plotted
             assert not plotted & {colour.lower() for other, colour in colours.items() if other != label}
-    assert len(seen) == 3 * 11  # paths from the side and in plan, two ends, seven quantities
-    assert set(seen) == set(colours)
+    assert len(observed) == 3 * 11  # paths from the side and in plan, two ends, seven quantities
+    assert set(observed) == set(colours)
 
 
 @pytest.mark.slow

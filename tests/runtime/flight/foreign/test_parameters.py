@@ -67,12 +67,12 @@ def test_single_precision_is_no_loss(tmp_path):
 )
 def test_what_an_fmu_does_not_take_ends_the_run_by_name(tmp_path, capsys, quirk, name, words):
     path = odd_system(tmp_path, **{quirk: True})
-    given = {f"odd.{name}": GIVEN[f"odd.{name}"]}
-    result = fly(path, set=given)
+    values = {f"odd.{name}": GIVEN[f"odd.{name}"]}
+    result = fly(path, set=values)
     assert (result.status, result.time.size) == ("failed", 0)
     assert f"odd.{name}: {words}" in result.message
     assert fly(path).status == "stop_time"
-    value = str(given[f"odd.{name}"])
+    value = str(values[f"odd.{name}"])
     assert main(["run", str(path), "--set", f"odd.{name}={value.lower() if value == 'True' else value}"]) == 1
     assert f"odd.{name}: {words}" in capsys.readouterr().err
 

@@ -50,8 +50,8 @@ def thrust_allocation():
     numerator, denominator, _ = signal.cont2discrete(([1.0], [lag, 1.0]), STEP)
     steady_state = signal.lfilter_zi(np.ravel(numerator), denominator) * commanded[0]
     thrust, _ = signal.lfilter(np.ravel(numerator), denominator, commanded, zi=steady_state)
-    seen, turning, counted, remaining = map(follow, (direction, rate, since - direction_lead, lasting))
-    goals = unit(seen + (TIME + STEP - counted)[:, None] * turning)
+    observed, turning, counted, remaining = map(follow, (direction, rate, since - direction_lead, lasting))
+    goals = unit(observed + (TIME + STEP - counted)[:, None] * turning)
     flown, ahead, left = [direction[0]], [direction[0]], [0.0]
     for goal in goals[1:]:
         now = ahead[-1]

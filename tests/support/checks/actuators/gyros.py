@@ -13,7 +13,7 @@ def gyro_steering_robust():
     angles = np.array([1.0, -1.0, 1.1, -0.9]) + random.normal(0.0, 0.1, (rows, 4))
     torque = random.normal(0.0, 10.0, (rows, 3))
     rates, measures, limited = [], [], []
-    for (b1, b2, b3, b4), wanted in zip(angles, torque, strict=True):
+    for (b1, b2, b3, b4), desired in zip(angles, torque, strict=True):
         # derivatives of h = (C1 + C2 + C3 + C4, S1 + S2, S3 + S4)
         jacobian = np.array(
             [
@@ -22,7 +22,7 @@ def gyro_steering_robust():
                 [0.0, 0.0, np.cos(b3), np.cos(b4)],
             ]
         )
-        rate = np.linalg.lstsq(jacobian, -wanted / momentum, rcond=None)[0]
+        rate = np.linalg.lstsq(jacobian, -desired / momentum, rcond=None)[0]
         rates.append(rate / max(1.0, np.abs(rate).max() / limit))
         limited.append(np.abs(rate).max() > limit)
         measures.append(np.prod(np.linalg.svd(jacobian, compute_uv=False)))
@@ -96,26 +96,26 @@ def gyro_steering_explicit():
         divisors = [np.sin(angles[1] - angles[0]), np.sin(angles[3] - angles[2]), a * (1 - rho * u) + b * (1 + rho * v)]
         return np.abs(divisors).min() >= divisor
 
-    def steer(angles, wanted, time):
+    def steer(angles, desired, time):
         jacobian = derivative(momentum, angles)
         if lawful(angles):
-            return np.linalg.solve(np.vstack([jacobian, derivative(law, angles)]), [*wanted, -gain * law(angles)]), 0
+            return np.linalg.solve(np.vstack([jacobian, derivative(law, angles)]), [*desired, -gain * law(angles)]), 0
         lack = max(0.0, 1.0 - np.prod(np.linalg.svd(jacobian, compute_uv=False)) / threshold)
         weight = np.diag(1.0 + swing * lack * np.array([1.0, -1.0, 1.0, -1.0]))
         e23, e13, e12 = swing * np.sin(np.pi / 2.0 * (time + np.arange(3)))
         e = np.array([[1.0, e12, e13], [e12, 1.0, e23], [e13, e23, 1.0]])
         gram = jacobian @ weight @ jacobian.T + damping * lack**2 * e
-        return weight @ jacobian.T @ np.linalg.solve(gram, wanted), 1
+        return weight @ jacobian.T @ np.linalg.solve(gram, desired), 1
 
     def limited(rates, status):
         largest = np.abs(rates).max()
         return (rates * limit / largest, 2) if largest > limit else (rates, status)
 
     rates, statuses, measures = np.zeros((rows, 4)), np.full(rows, 3), np.zeros(rows)
-    for row, (now, wanted) in enumerate(zip(follow(angles), -follow(torque) / rotor, strict=True)):
-        if np.abs(wanted).max() < 1e100:
-            first, _ = limited(*steer(now, wanted, STEP * row))
-            rates[row], statuses[row] = limited(*steer(now + lead * first, wanted, STEP * row))
+    for row, (now, desired) in enumerate(zip(follow(angles), -follow(torque) / rotor, strict=True)):
+        if np.abs(desired).max() < 1e100:
+            first, _ = limited(*steer(now, desired, STEP * row))
+            rates[row], statuses[row] = limited(*steer(now + lead * first, desired, STEP * row))
             measures[row] = np.prod(np.linalg.svd(derivative(momentum, now), compute_uv=False))
         else:
             measures[row] = measures[row - 1]

@@ -34,7 +34,7 @@ def allocate_jets(allocate):
     wrench = np.random.default_rng(283).normal(0.0, 1.0, (rows, 6)) * np.array([0.7, 0.7, 0.7, 0.06, 0.06, 0.06])
     thrust, scaled = map(np.array, zip(*(allocate(row) for row in wrench), strict=True))
     assert 0 < scaled.sum() < rows
-    given = thrust @ jets().T
+    applied = thrust @ jets().T
     return Check(
         truth="linear algebra and optimisation",
         step=STEP,
@@ -47,8 +47,8 @@ def allocate_jets(allocate):
         },
         outputs={
             "jet_thrust": follow(thrust),
-            "allocated_force": follow(given[:, :3]),
-            "allocated_torque": follow(given[:, 3:]),
+            "allocated_force": follow(applied[:, :3]),
+            "allocated_torque": follow(applied[:, 3:]),
             "status": follow(scaled),
         },
         tolerances=dict.fromkeys(("jet_thrust", "allocated_force", "allocated_torque"), (1e-9, 0.0))

@@ -31,9 +31,9 @@ def jet_allocation_quantised():
     period = STEP * np.array([4, 4, 8, 8, 4, 4, 4, 4, 4, 0, 4, 4])
     thrusts, statuses, owed = np.zeros((len(commands), 8)), np.full(len(commands), 3), np.zeros(3)
     for k in np.nonzero(period)[0]:
-        wanted = attitude[k].inv().apply(force[k] + owed / period[k])
-        part = attainable_part(matrix, np.append(wanted, np.zeros(3)), QUANTUM * levels.max())
-        attained = part * wanted
+        desired = attitude[k].inv().apply(force[k] + owed / period[k])
+        part = attainable_part(matrix, np.append(desired, np.zeros(3)), QUANTUM * levels.max())
+        attained = part * desired
         distance = np.linalg.norm(forces - attained, axis=1)
         best, *others = np.nonzero(distance < distance.min() + 1e-9)[0]
         assert all(levels[other].sum() > levels[best].sum() for other in others)
@@ -50,7 +50,7 @@ def jet_allocation_quantised():
     jet_thrust = np.zeros((ROWS, 8))
     for row, thrust in zip(due[in_time], thrusts[in_time], strict=True):
         jet_thrust[row:] = thrust
-    given = jet_thrust @ matrix.T
+    applied = jet_thrust @ matrix.T
     sent = count - 2
     return Check(
         truth="search through all levels, a linear programme",
@@ -64,8 +64,8 @@ def jet_allocation_quantised():
         },
         outputs={
             "jet_thrust": jet_thrust,
-            "allocated_force": given[:, :3],
-            "allocated_torque": given[:, 3:],
+            "allocated_force": applied[:, :3],
+            "allocated_torque": applied[:, 3:],
             "status": statuses[newest],
         },
         tolerances=dict.fromkeys(("jet_thrust", "allocated_force", "allocated_torque"), (1e-13, 0.0))

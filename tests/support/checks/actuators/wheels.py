@@ -22,17 +22,17 @@ def check_allocation(truth, distribute):
     """Return the check of an allocation; distribute: torques by the pseudo-inverse, speeds,
     null vector -> torques, change."""
     random = np.random.default_rng(45)
-    wanted, speeds = random.normal(0.0, 0.25, (ROWS, 3)), random.normal(0.0, 60.0, (ROWS, 4))
-    wanted[20] = 1e102
+    required, speeds = random.normal(0.0, 0.25, (ROWS, 3)), random.normal(0.0, 60.0, (ROWS, 4))
+    required[20] = 1e102
     a = unit(AXES).T
     n = null_space(a)[:, 0]
     n = n * np.sign(n[0])
     motors, statuses = np.zeros((ROWS, 4)), np.zeros(ROWS)
     for row in range(ROWS):
-        if np.abs(wanted[row]).max() > 1e100:
+        if np.abs(required[row]).max() > 1e100:
             statuses[row] = 2
             continue
-        u, change = distribute(-np.linalg.pinv(a) @ wanted[row], speeds[row], n)
+        u, change = distribute(-np.linalg.pinv(a) @ required[row], speeds[row], n)
         largest = np.abs(u).max()
         if largest > LIMIT:
             motors[row], statuses[row] = LIMIT / largest * u, 1
@@ -44,7 +44,7 @@ def check_allocation(truth, distribute):
     return Check(
         truth=truth,
         step=STEP,
-        inputs={"torque_command": wanted, "wheel_speeds": speeds},
+        inputs={"torque_command": required, "wheel_speeds": speeds},
         outputs={
             "motor_torques": follow(motors),
             "allocated_torque": follow(-motors @ a.T),

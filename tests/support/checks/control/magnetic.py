@@ -44,10 +44,10 @@ def magnetic_control():
     momentum = random.normal(0.0, 0.02, (ROWS, 3))
     field[new & (number == WRONG_FIELD), 1] = np.nan
     momentum[new & (number == WRONG_MOMENTUM), 2] = np.nan
-    seen = follow(np.arange(ROWS))
+    sampled = follow(np.arange(ROWS))
     before, sample, rows = None, None, []
-    for row, source in enumerate(seen):
-        if row == 0 or count[source] != count[seen[row - 1]]:
+    for row, source in enumerate(sampled):
+        if row == 0 or count[source] != count[sampled[row - 1]]:
             sample, begun, dipole, status = field[source], row, np.zeros(3), GOOD
             if not np.isfinite([sample, momentum[source]]).all():
                 status, before = NOT_FINITE, None

@@ -24,8 +24,8 @@ def orbital_modal_control():
     a = derivatives_of(rates_of, np.concatenate([np.zeros(3), DOWN]))
     unit, zero = np.eye(3), np.zeros((3, 3))
     lacking = np.block([[unit, zero], [a[:3, :3] + np.diag(angle_poles), unit]])  # (a, z) of (a, w - wp)
-    wanted = np.block([[-np.diag(angle_poles), unit], [zero, -np.diag(rate_poles)]])
-    gain = INERTIA @ (np.linalg.solve(lacking, wanted @ lacking) - a)[3:]
+    desired = np.block([[-np.diag(angle_poles), unit], [zero, -np.diag(rate_poles)]])
+    gain = INERTIA @ (np.linalg.solve(lacking, desired @ lacking) - a)[3:]
     return Check(
         truth="poles placed by numpy on the motion differentiated by complex steps",
         step=STEP,
@@ -47,8 +47,8 @@ def orbital_derivative_control():
     lacking = np.block([[unit, zero], [a[:3, :3] - upper, unit]])
     closed = np.linalg.solve(lacking, np.block([[upper, unit], [zero, lower]]) @ lacking)
     gain = INERTIA @ np.linalg.solve(closed.T, (closed - a)[3:].T).T
-    seen, rates_seen = follow(angles), follow(w)
-    rates = np.array([rates_of(state)[:3] for state in np.hstack([seen, rates_seen])])
+    observed, rates_seen = follow(angles), follow(w)
+    rates = np.array([rates_of(state)[:3] for state in np.hstack([observed, rates_seen])])
     acceleration = np.diff(rates_seen, axis=0, prepend=rates_seen[:1]) / STEP
     constant = -INERTIA @ rates_of(np.concatenate([np.zeros(3), DOWN]))[3:]
     torque = constant + np.hstack([rates, acceleration]) @ gain.T
@@ -73,15 +73,15 @@ def orbital_arrival_control():
     led[:, 1] = np.interp(TIME, corners, [0.0, turn, turn, 0.0])
     led_rates = np.zeros((ROWS, 3))
     led_rates[:, 1] = np.array([0.0, -turn_rate, 0.0, turn_rate, 0.0])[np.searchsorted(corners, TIME)]
-    seen = follow(angles)
-    rates = np.array([rates_of(state)[:3] for state in np.hstack([seen, follow(w)])])
-    error = seen - led
+    observed = follow(angles)
+    rates = np.array([rates_of(state)[:3] for state in np.hstack([observed, follow(w)])])
+    error = observed - led
     outside = error - error.clip(-band, band)
-    wanted = led_rates - outside / np.maximum(arrival - TIME, shortest_time)[:, None]
+    desired = led_rates - outside / np.maximum(arrival - TIME, shortest_time)[:, None]
     mobility = np.linalg.inv(INERTIA).diagonal()
-    by_pulse = np.broadcast_to(mobility * JET_TORQUE * pulse, wanted.shape)
-    by_rate = 0.3 * np.abs(wanted)
-    change = wanted - rates
+    by_pulse = np.broadcast_to(mobility * JET_TORQUE * pulse, desired.shape)
+    by_rate = 0.3 * np.abs(desired)
+    change = desired - rates
     fires = np.abs(change) > np.maximum(by_rate, by_pulse)
     # each threshold decides: a change between the two is let be, whichever is the larger
     assert (~fires & (np.abs(change) > by_pulse)).any()

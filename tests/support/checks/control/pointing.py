@@ -19,7 +19,7 @@ def quaternion_feedback():
     size = np.where(np.arange(ROWS) % 4 == 0, 0.5, 0.06)
     reference = Rotation.from_rotvec(random.normal(size=(ROWS, 3)))
     error = Rotation.from_rotvec(size[:, None] * random.normal(size=(ROWS, 3)))
-    rate, wanted, acceleration = (scale * random.normal(size=(ROWS, 3)) for scale in (0.05, 0.05, 0.01))
+    rate, desired, acceleration = (scale * random.normal(size=(ROWS, 3)) for scale in (0.05, 0.05, 0.01))
     wheels = random.normal(0.0, 3.0, (ROWS, 3))
     estimated = random.choice([-2.0, -1.0, 1.0], (ROWS, 1)) * (reference * error).as_quat(scalar_first=True)
     q = error.as_quat(canonical=True, scalar_first=True)[:, 1:]
@@ -31,12 +31,12 @@ def quaternion_feedback():
     feedforward = random.normal(0.0, 0.1, (ROWS, 3))
     active = (np.arange(ROWS) < 14) | (np.arange(ROWS) > 18)
     # a tick sees the inputs of the row before, the first one those of the first row: they are integrated twice
-    seen = follow(np.arange(ROWS))
-    integral = np.cumsum(np.where((length < band)[:, None] & active[:, None], 2.0 * q, 0.0)[seen], axis=0)
-    integral -= np.where((seen > 18)[:, None], integral[seen == 18], 0.0)
+    sampled = follow(np.arange(ROWS))
+    integral = np.cumsum(np.where((length < band)[:, None] & active[:, None], 2.0 * q, 0.0)[sampled], axis=0)
+    integral -= np.where((sampled > 18)[:, None], integral[sampled == 18], 0.0)
     integral *= STEP * w0**2 / time
-    on, answered = active[seen], np.maximum.accumulate(np.where(active, np.arange(ROWS), 0))[seen]
-    seen_rate, seen_acceleration = error.inv().apply(wanted), error.inv().apply(acceleration)
+    on, answered = active[sampled], np.maximum.accumulate(np.where(active, np.arange(ROWS), 0))[sampled]
+    seen_rate, seen_acceleration = error.inv().apply(desired), error.inv().apply(acceleration)
     answer = seen_acceleration + np.cross(seen_rate, rate) - stiffness * bounded - friction * (rate - seen_rate)
     torque = np.cross(rate, rate @ inertia.T + wheels) + answer @ inertia.T + feedforward
     return Check(
@@ -46,14 +46,14 @@ def quaternion_feedback():
             "estimated_quaternion": estimated,
             "estimated_angular_velocity": rate,
             "reference_quaternion": reference.as_quat(scalar_first=True),
-            "reference_angular_velocity": wanted,
+            "reference_angular_velocity": desired,
             "reference_angular_acceleration": acceleration,
             "wheel_momentum": wheels,
             "feedforward_torque": feedforward,
             "active": active,
         },
         outputs={
-            "torque_command": np.where(on[:, None], torque[seen] - integral @ inertia.T, 0.0),
+            "torque_command": np.where(on[:, None], torque[sampled] - integral @ inertia.T, 0.0),
             "attitude_error": 2.0 * q[answered],
             "status": np.where(on, 0, 3),
         },

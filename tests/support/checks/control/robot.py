@@ -16,13 +16,13 @@ def attitude_control():
     """
     inertia, frequency, damping, every = np.array([700.0, 500.0, 800.0]), 0.8, 0.7, 2
     random = np.random.default_rng(289)
-    error, rate, turn, wanted = (size * random.normal(size=(ROWS, 3)) for size in (0.2, 0.02, 0.05, 0.01))
+    error, rate, turn, desired = (size * random.normal(size=(ROWS, 3)) for size in (0.2, 0.02, 0.05, 0.01))
     gyros, jets, disturbance = (size * random.normal(size=(ROWS, 3)) for size in (20.0, 0.3, 1e-3))
     inputs = {
         "attitude_error": error,
         "rate_error": rate,
         "planned_angular_velocity": turn,
-        "planned_angular_acceleration": wanted,
+        "planned_angular_acceleration": desired,
         "gyro_momentum": gyros,
         "jet_torque": jets,
         "disturbance": disturbance,
@@ -33,7 +33,7 @@ def attitude_control():
     turn = from_plan.apply(turn)
     w = turn + rate
     correction = frequency**2 * error + 2.0 * damping * frequency * rate
-    acceleration = from_plan.apply(wanted) + np.cross(turn, w) - correction
+    acceleration = from_plan.apply(desired) + np.cross(turn, w) - correction
     external = jets + inertia * disturbance
     momentum = inertia * w + gyros
     half = every * STEP / 2.0

@@ -61,9 +61,9 @@ def pointing_guidance():
     mode = np.repeat([NADIR, SUN, INERTIAL, SUN, NADIR, SUN], [20, 12, 9, 14, 11, 7])
     offset, fixed = Rotation.from_rotvec([0.2, -0.1, 0.4]), Rotation.from_rotvec([1.0, 0.5, -2.0])
     panel, secondary = np.array([0.1, -2.0, 0.3]), np.array([0.2, 0.1, 1.5])
-    seen = follow(np.arange(ROWS))
+    sampled = follow(np.arange(ROWS))
     reference, before, rows = (Rotation.identity(), np.zeros(3), np.zeros(3)), None, []
-    for row, n in enumerate(seen):
+    for row, n in enumerate(sampled):
         time, finite = CYCLE * row, n not in NO_ORBIT
         if finite and count[n] != before:
             before, at = count[n], sampled_at[n]

@@ -125,12 +125,12 @@ def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
     """
     inputs, records, first, direction, clamped = [], [], 0, UP, 0
     for number, flight in enumerate(flights):
-        seen = (
+        observed = (
             [flight[0], *flight] if number == 0 else flight
         )  # the first row is sampled at the start, and a step later
         memory = {}
-        solutions = [law(*state, memory) for state in seen]
-        outputs = fly(STEP * (first + np.arange(len(seen))), solutions, direction, last_burn)
+        solutions = [law(*state, memory) for state in observed]
+        outputs = fly(STEP * (first + np.arange(len(observed))), solutions, direction, last_burn)
         if solutions[0].clamps is not None:
             counts = clamped + np.cumsum([solution.clamps for solution in solutions])
             clamped = counts[-1]
@@ -141,7 +141,7 @@ def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
         idle["burn_duration"] = np.array([FOREVER])
         records += [outputs, idle]
         inputs += [(*state, True) for state in flight] + [(*flight[-1], False)]
-        first += len(seen) + 1
+        first += len(observed) + 1
     outputs = {name: np.concatenate([record[name] for record in records]) for name in records[0]}
     position, velocity, active = (np.array(rows) for rows in zip(*inputs, strict=True))
     rows = len(active)

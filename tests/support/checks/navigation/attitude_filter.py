@@ -73,8 +73,8 @@ def attitude_filter():
         if new[row] and row == NOT_FINITE:
             status = 1
         elif new[row] and row > 0:
-            seen = Rotation.from_quat(finite[row], scalar_first=True)
-            kalman.update((attitude.inv() * seen).as_rotvec())
+            observed = Rotation.from_quat(finite[row], scalar_first=True)
+            kalman.update((attitude.inv() * observed).as_rotvec())
             change = kalman.x.reshape(3, 3)
             attitude, w, disturbance = (
                 attitude * Rotation.from_rotvec(change[0]),

@@ -200,18 +200,18 @@ def pointing_monitor():
     estimate = true * Rotation.from_rotvec(0.3 * np.sin(TIME[:, None] + PHASES))
     boresight = np.array([0.6, -1.2, 2.0])
     aims = zip(true.apply(boresight), reference.apply(boresight), strict=True)
-    cone = np.array([Rotation.align_vectors([aim], [wanted])[0].magnitude() for aim, wanted in aims])
+    cone = np.array([Rotation.align_vectors([aim], [desired])[0].magnitude() for aim, desired in aims])
     rate = np.outer(np.where(TIME < 1.7, 0.01, 1e-4), [0.0, 0.6, -0.8])
     angle_limit, rate_limit, hold = 0.01, 1e-3, 1.0
     within = (off <= angle_limit) & (np.linalg.norm(rate, axis=1) <= rate_limit)
-    seen = follow(np.arange(ROWS))
+    observed = follow(np.arange(ROWS))
     since, settling, finished = 0.0, [], []
     for row in range(ROWS):
-        before = row > 0 and within[seen[row - 1]]
-        if not (within[seen[row]] and before):
+        before = row > 0 and within[observed[row - 1]]
+        if not (within[observed[row]] and before):
             since = TIME[row]
         settling.append(since)
-        finished.append(bool(finished and finished[-1]) or (within[seen[row]] and TIME[row] - since >= hold))
+        finished.append(bool(finished and finished[-1]) or (within[observed[row]] and TIME[row] - since >= hold))
     assert np.unique(settling).size > 3
     assert finished[-1]
     assert not finished[0]
@@ -225,11 +225,11 @@ def pointing_monitor():
             "estimated_quaternion": -estimate.as_quat(scalar_first=True),
         },
         outputs={
-            "attitude_error": (reference.inv() * true).as_rotvec()[seen],
-            "pointing_error": off[seen],
-            "half_cone": cone[seen],
-            "knowledge_error": (true.inv() * estimate).as_rotvec()[seen],
-            "rate": np.linalg.norm(rate, axis=1)[seen],
+            "attitude_error": (reference.inv() * true).as_rotvec()[observed],
+            "pointing_error": off[observed],
+            "half_cone": cone[observed],
+            "knowledge_error": (true.inv() * estimate).as_rotvec()[observed],
+            "rate": np.linalg.norm(rate, axis=1)[observed],
             "settling_time": np.array(settling),
             "finished": np.array(finished),
         },

@@ -62,8 +62,8 @@ def orbital_filter():
     sigmas = {"vertical_sigma": 0.05 * DEGREE, "gyro_sigma": 0.002 * DEGREE, "gyro_bias_sigma": 1e-5}
     samples = Samples(0.05 * DEGREE, 0.002 * DEGREE)
     samples.measured[:, 2:] += [1e-5, -2e-5, 1.5e-5]
-    seen = [(*row[:2], row[2:]) for row in samples.measured]
-    kalman = AttitudeKalman(seen[0], **sigmas, tick=STEP)
+    observed = [(*row[:2], row[2:]) for row in samples.measured]
+    kalman = AttitudeKalman(observed[0], **sigmas, tick=STEP)
     rows = []
 
     def note(status):
@@ -73,7 +73,7 @@ def orbital_filter():
     note(GOOD)
     for row, status in enumerate(samples.status[:-1]):
         if status == GOOD:
-            kalman.step(seen[row], samples.pulses[row], samples.torque[row])
+            kalman.step(observed[row], samples.pulses[row], samples.torque[row])
         else:
             kalman.coast(samples.carry(row, np.concatenate([kalman.filter.x[:3], kalman.rates]), True))
         note(status)

@@ -64,10 +64,10 @@ def orbital_observer_discrete():
     """Check pulse by pulse."""
     samples = Samples(3e-3, 1e-4)
     ahead = expm(STEP * derivatives_of(rates_of, WANTED))
-    seen = C @ ahead @ YAW
+    observed = C @ ahead @ YAW
     change = ahead[1, 1] - math.exp(-YAW_POLE * STEP)
     gain = (np.eye(6) - math.exp(-MEASURED_POLE * STEP) * np.linalg.inv(ahead)) @ (
-        C.T + YAW @ np.linalg.pinv(seen) * change
+        C.T + YAW @ np.linalg.pinv(observed) * change
     )
     check_poles((np.eye(6) - gain @ C) @ ahead, math.exp(-YAW_POLE * STEP), math.exp(-MEASURED_POLE * STEP))
 

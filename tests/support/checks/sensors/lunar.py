@@ -49,11 +49,12 @@ def radar_altimeter():
 def terrain_camera():
     """Measure the position within a band of altitudes."""
     position, _ = descent()
-    seen = sampled(position)
-    altitude = altitudes(seen)
+    observed = sampled(position)
+    altitude = altitudes(observed)
     sigma = 0.002 * np.abs(altitude) + 2.0
     measured, count = keep(
-        seen + sigma[:, None] * Numbers(SEED, STREAM).normal(SAMPLES, 3), (altitude >= 1500.0) & (altitude <= 4000.0)
+        observed + sigma[:, None] * Numbers(SEED, STREAM).normal(SAMPLES, 3),
+        (altitude >= 1500.0) & (altitude <= 4000.0),
     )
     limits = {"minimum_altitude": 1500.0, "maximum_altitude": 4000.0, "moon_radius": MOON_RADIUS}
     return check_sensor(
@@ -69,10 +70,10 @@ def terrain_camera():
 def doppler_velocimeter():
     """Measure the velocity below a limit of altitude, with errors that grow with speed."""
     position, velocity = descent()
-    seen = sampled(velocity)
-    sigma = 0.003 * np.linalg.norm(seen, axis=1) + 0.1
+    observed = sampled(velocity)
+    sigma = 0.003 * np.linalg.norm(observed, axis=1) + 0.1
     measured, count = keep(
-        seen + sigma[:, None] * Numbers(SEED, STREAM).normal(SAMPLES, 3), altitudes(sampled(position)) <= 3000.0
+        observed + sigma[:, None] * Numbers(SEED, STREAM).normal(SAMPLES, 3), altitudes(sampled(position)) <= 3000.0
     )
     return check_sensor(
         "closed form with exact random numbers",

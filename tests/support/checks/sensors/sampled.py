@@ -40,8 +40,8 @@ def wave(size, *phases):
     return size * np.sin(0.7 * TIME[:, None] + np.array(phases))
 
 
-def keep(rows, seen):
+def keep(rows, measured):
     """Return outputs at every sample, the last valid one where none is valid, 0 before; and the count."""
-    assert 0 < seen.sum() < SAMPLES
-    count = np.cumsum(seen)
-    return np.concatenate([np.zeros_like(rows[:1]), rows[seen]])[count], count
+    assert 0 < measured.sum() < SAMPLES
+    count = np.cumsum(measured)
+    return np.concatenate([np.zeros_like(rows[:1]), rows[measured]])[count], count

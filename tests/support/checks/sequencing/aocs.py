@@ -43,9 +43,9 @@ def aocs_modes():
     direction = random.normal(size=(ROWS, 3))
     omega = rate[:, None] * direction / np.linalg.norm(direction, axis=1)[:, None]
     quaternion = random.choice([-2.0, 1.0], (ROWS, 1)) * attitude.as_quat(scalar_first=True)
-    seen = follow(np.arange(ROWS))
+    sampled = follow(np.arange(ROWS))
     mode, begun, settled, fast, blind, rows = DETUMBLE, 0, 0, 0, 0, []
-    for row, n in enumerate(seen):
+    for row, n in enumerate(sampled):
         ready = rate[n] < CALM if mode == DETUMBLE else known[n] and angle[n] < SUN_ERROR
         settled = settled + 1 if ready and row > 0 else 0
         fast = fast + 1 if rate[n] > LOST and row > 0 else 0

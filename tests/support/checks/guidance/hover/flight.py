@@ -62,7 +62,7 @@ def sample_times(count):
 def see(law, plan, number, time, elapsed, random):
     """Return the block's inputs at a sample of a plan: a start, or the reference with errors."""
     mode, plan_number, _, _, target, start, others = plan
-    seen = SimpleNamespace(
+    observed = SimpleNamespace(
         active=True,
         mode=mode,
         plan_number=plan_number,
@@ -75,16 +75,16 @@ def see(law, plan, number, time, elapsed, random):
         velocity_increment=np.round(law.command / 1000.0 * elapsed * random.uniform(0.95, 1.05) * UP, 3),
     )
     if number == 0:
-        vars(seen).update({name: np.array(value) if np.ndim(value) else value for name, value in others.items()})
+        vars(observed).update({name: np.array(value) if np.ndim(value) else value for name, value in others.items()})
     elif law.plan:
         position, velocity = law.reference(time)
-        seen.position = np.round(position + random.normal(0.0, 3.0, 3), 2)
-        seen.velocity = np.round(velocity + random.normal(0.0, 0.3, 3), 2)
-        seen.mass = 1000.0 - number
-        seen.target_position = seen.target_position + 5.0  # that of the start counts
+        observed.position = np.round(position + random.normal(0.0, 3.0, 3), 2)
+        observed.velocity = np.round(velocity + random.normal(0.0, 0.3, 3), 2)
+        observed.mass = 1000.0 - number
+        observed.target_position = observed.target_position + 5.0  # that of the start counts
         if mode == HOLD:
-            seen.velocity_increment = seen.velocity_increment * number
-    return seen
+            observed.velocity_increment = observed.velocity_increment * number
+    return observed
 
 
 def hover_guidance():
@@ -95,9 +95,9 @@ def hover_guidance():
     random, law = np.random.default_rng(40), Law(CYCLE)
     inputs, outputs = [], []
     for (plan, number), time, span in zip(samples, times, elapsed, strict=True):
-        seen = see(law, plan, number, time, span, random)
-        outputs.append(law.sample(time, span, seen, plan[3]))
-        inputs.append(vars(seen))
+        observed = see(law, plan, number, time, span, random)
+        outputs.append(law.sample(time, span, observed, plan[3]))
+        inputs.append(vars(observed))
     rows = int(times[-1] / STEP) + 1
     unseen = inputs[-1] | {"active": False}
     rows_of_inputs = [unseen] * rows

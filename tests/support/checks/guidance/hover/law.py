@@ -59,31 +59,31 @@ class Law:
             return self.plan.goal - sunk * self.plan.up, -min(acceleration * t, speed) * self.plan.up
         return self.plan.motion(t)
 
-    def estimate(self, elapsed, seen):
+    def estimate(self, elapsed, observed):
         """Estimate thrust over its command, after an engine of first order."""
         system = np.array([[-1.0 / LAG, 0.0, self.command / LAG], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
         self.engine, impulse, _ = expm(elapsed * system) @ [self.engine, 0.0, 1.0]
-        mean_mass = seen.mass + 0.5 * impulse / EXHAUST
-        measured = mean_mass * np.linalg.norm(seen.velocity_increment) / impulse
+        mean_mass = observed.mass + 0.5 * impulse / EXHAUST
+        measured = mean_mass * np.linalg.norm(observed.velocity_increment) / impulse
         gain = 0.1 if impulse > 0.3 * MAXIMUM * elapsed else 0.02
         if abs(measured - 1.0) < 0.5:
             self.outputs["thrust_factor"] += gain * (measured - self.outputs["thrust_factor"])
 
-    def sample(self, time, elapsed, seen, kind=None):
+    def sample(self, time, elapsed, observed, kind=None):
         """Return outputs at ``time`` (s); ``kind`` as in `make_plan`."""
         self.outputs["command_time"] = time
-        if not seen.active or seen.mode == IDLE:
+        if not observed.active or observed.mode == IDLE:
             self.plan, self.command = None, 0.0
             self.outputs |= NOTHING
             return dict(self.outputs)
         if self.plan:
-            self.estimate(elapsed, seen)
+            self.estimate(elapsed, observed)
         else:
-            measured = seen.mass * np.linalg.norm(seen.velocity_increment) / elapsed
+            measured = observed.mass * np.linalg.norm(observed.velocity_increment) / elapsed
             self.tilt, self.engine = np.zeros(3), measured / self.outputs["thrust_factor"]
-        if not self.plan or seen.mode != self.mode or seen.plan_number != self.outputs["answered_plan"]:
-            self.plan, self.start, self.mode = make_plan(seen, elapsed, kind), time, seen.mode
-        self.outputs |= self.track(time - self.start, self.reference(time), elapsed, seen)
+        if not self.plan or observed.mode != self.mode or observed.plan_number != self.outputs["answered_plan"]:
+            self.plan, self.start, self.mode = make_plan(observed, elapsed, kind), time, observed.mode
+        self.outputs |= self.track(time - self.start, self.reference(time), elapsed, observed)
         return dict(self.outputs)
 
     def frequency(self, t):
@@ -92,20 +92,20 @@ class Law:
             return HOLDING
         return COASTING if t < plan.duration - plan.times[3] - 1.0 else BRAKING
 
-    def track(self, t, reference, elapsed, seen):
+    def track(self, t, reference, elapsed, observed):
         """Return the command at ``t`` (s) after the plan's start."""
         plan, w = self.plan, self.frequency(t)
         direction, rate = plan.direction(t)
-        error = reference[0] - seen.position
-        f = w**2 * shorten(error, LARGEST_ERROR) + 2.0 * DAMPING * w * (reference[1] - seen.velocity)
-        size = plan.mean_thrust(t + LAG, self.cycle, weight(seen.position)) + f @ direction
+        error = reference[0] - observed.position
+        f = w**2 * shorten(error, LARGEST_ERROR) + 2.0 * DAMPING * w * (reference[1] - observed.velocity)
+        size = plan.mean_thrust(t + LAG, self.cycle, weight(observed.position)) + f @ direction
         demand = (np.eye(3) - np.outer(direction, direction)) @ f / max(size, 1.0)
         lateral = shorten(demand, LARGEST_TILT)
         self.tilt = lateral + np.exp(-elapsed / FILTER) * (self.tilt - lateral)
         length = np.linalg.norm(direction + self.tilt)
         axis = (direction + self.tilt) / length
         acceleration = max(size, 0.02) * length / self.outputs["thrust_factor"]
-        self.command = np.clip(seen.mass * acceleration, MINIMUM, MAXIMUM)
+        self.command = np.clip(observed.mass * acceleration, MINIMUM, MAXIMUM)
         shortened = np.linalg.norm(error) > LARGEST_ERROR or np.linalg.norm(demand) > LARGEST_TILT
         return {
             "thrust_acceleration": acceleration,
@@ -113,13 +113,13 @@ class Law:
             "thrust_direction_rate": (np.eye(3) - np.outer(axis, axis)) @ rate / length,
             "time_to_go": max(plan.duration - t, 0.0),
             "status": plan.status,
-            "finished": t >= plan.duration and not (seen.mode == DESCEND and plan.status == GOOD),
+            "finished": t >= plan.duration and not (observed.mode == DESCEND and plan.status == GOOD),
             "angular_acceleration_feed": (plan.angular_rate(t + self.cycle) - plan.angular_rate(t)) / self.cycle,
-            "answered_plan": seen.plan_number,
+            "answered_plan": observed.plan_number,
             "plan_time": t,
             "reference_position": reference[0],
             "reference_velocity": reference[1],
-            "saturated": shortened or self.command != seen.mass * acceleration,
+            "saturated": shortened or self.command != observed.mass * acceleration,
             "plan_kind": plan.kind,
             "predicted_propellant": plan.propellant,
             "programme": np.array(plan.times),

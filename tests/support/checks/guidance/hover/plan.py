@@ -75,15 +75,21 @@ def plan_transfer(plan, transfer, mass):
     return excess
 
 
-def plan_programme(plan, seen, gravity, kind):
+def plan_programme(plan, observed, gravity, kind):
     """Plan in the plane of start and target, on the target's vertical."""
-    up, way = plan.up, plan.goal - seen.position
+    up, way = plan.up, plan.goal - observed.position
     y = way @ up
     side = way - y * up
     x = np.linalg.norm(side)
-    vehicle = PLANNED_MAXIMUM * MAXIMUM / seen.mass, PLANNED_MINIMUM * MAXIMUM / seen.mass, EXHAUST, gravity, SWING
+    vehicle = (
+        PLANNED_MAXIMUM * MAXIMUM / observed.mass,
+        PLANNED_MINIMUM * MAXIMUM / observed.mass,
+        EXHAUST,
+        gravity,
+        SWING,
+    )
     assert (kind == VERTICAL) == (x < 1.0)
-    origin = seen.position + (side if kind == VERTICAL else 0.0)
+    origin = observed.position + (side if kind == VERTICAL else 0.0)
     form = min(kind, WITHOUT_FIRST_BURN)
     times = solve(form, FROM.get(kind, GUESSES[kind]), vehicle, x, y)
     if kind == WITH_FIRST_BURN:
@@ -91,34 +97,34 @@ def plan_programme(plan, seen, gravity, kind):
         assert flown(times, vehicle)[4] < flown(without, vehicle)[4]
     plan.kind, plan.times, plan.duration = kind, times, times[4]
     plan.path = Programme(times, vehicle, origin, side / x, up)
-    plan.propellant = seen.mass * flown(times, vehicle)[4]
+    plan.propellant = observed.mass * flown(times, vehicle)[4]
 
 
-def capture_start(seen, elapsed, lift):
+def capture_start(observed, elapsed, lift):
     """Return position and three derivatives, from the thrust measured, or with the engine off that of the weight."""
-    force = np.linalg.norm(seen.velocity_increment) / elapsed
-    low, high = np.array([PLANNED_MINIMUM, PLANNED_MAXIMUM]) * MAXIMUM / seen.mass
+    force = np.linalg.norm(observed.velocity_increment) / elapsed
+    low, high = np.array([PLANNED_MINIMUM, PLANNED_MAXIMUM]) * MAXIMUM / observed.mass
     if force < 0.5 * low:
-        force = np.clip(lift @ seen.attitude, low, high)
-    jerk = force * np.cross(seen.angular_rate, seen.attitude) + force**2 / EXHAUST * seen.attitude
-    return seen.position, seen.velocity, force * seen.attitude - lift, jerk
+        force = np.clip(lift @ observed.attitude, low, high)
+    jerk = force * np.cross(observed.angular_rate, observed.attitude) + force**2 / EXHAUST * observed.attitude
+    return observed.position, observed.velocity, force * observed.attitude - lift, jerk
 
 
-def make_plan(seen, elapsed, kind):
+def make_plan(observed, elapsed, kind):
     """Plan from the block's inputs; ``kind``: the form of a programme, declared with the flight."""
-    plan = Plan(seen.target_position, vertical(seen.target_position))
-    gravity = 0.5 * (weight(seen.position) + weight(seen.target_position))
+    plan = Plan(observed.target_position, vertical(observed.target_position))
+    gravity = 0.5 * (weight(observed.position) + weight(observed.target_position))
     lift = gravity * plan.up
-    if seen.mass * gravity >= MAXIMUM:
-        plan.goal, plan.status = seen.position, NO_PLAN
-    elif seen.mode == PROGRAMME and plan.up @ (plan.goal - seen.position) < 0.0:
-        plan_programme(plan, seen, gravity, kind)
-    elif seen.mode in (PROGRAMME, SLOWLY):
-        plan.status = NO_PROGRAMME if seen.mode == PROGRAMME else GOOD
-        limits = STANDBY if seen.mode == PROGRAMME else SLOW
-        plan_transfer(plan, slow_transfer(seen.position, plan.goal, plan.up, lift, limits), seen.mass)
-    elif seen.mode == CAPTURE:
-        start = capture_start(seen, elapsed, lift)
-        excess = plan_transfer(plan, capture(start, plan.goal, lift, seen.mass), seen.mass)
+    if observed.mass * gravity >= MAXIMUM:
+        plan.goal, plan.status = observed.position, NO_PLAN
+    elif observed.mode == PROGRAMME and plan.up @ (plan.goal - observed.position) < 0.0:
+        plan_programme(plan, observed, gravity, kind)
+    elif observed.mode in (PROGRAMME, SLOWLY):
+        plan.status = NO_PROGRAMME if observed.mode == PROGRAMME else GOOD
+        limits = STANDBY if observed.mode == PROGRAMME else SLOW
+        plan_transfer(plan, slow_transfer(observed.position, plan.goal, plan.up, lift, limits), observed.mass)
+    elif observed.mode == CAPTURE:
+        start = capture_start(observed, elapsed, lift)
+        excess = plan_transfer(plan, capture(start, plan.goal, lift, observed.mass), observed.mass)
         plan.status = BEYOND_LIMITS if excess > 0.0 else GOOD
     return plan
