@@ -29,7 +29,7 @@ def test_the_table_of_readme_is_what_was_measured():
 
 def test_the_largest_packages_are_those_of_the_decisions():
     text = (ROOT / "docs" / "decisions.md").read_text(encoding="utf-8")
-    (line,) = [each for each in text.splitlines() if each.startswith("- **size of an installation")]
+    (line,) = [each for each in text.splitlines() if each.startswith("- **Size of an installation")]
     stated = re.findall(r"([\w-]+) (\d+)(?:,| and|;)", line.partition("MB:")[2])
     largest = list(SIZES["packages"].items())[: len(stated)]
     assert len(stated) > 4
