@@ -38,10 +38,10 @@ def bounds_page() -> str:
     """Return the page of the bounds in `common/bounds.py`."""
     rows = [[f"`{bound.variable}`", f"{bound.default:g} {bound.unit}", bound.subject] for bound in BOUNDS]
     text = (
-        "Files and options are checked before memory is taken for them. An environment variable changes a bound. "
-        "Other limits cannot be changed: XML is 256 elements deep at most (libxml2's limit), names in TOML have "
-        "100 parts, its integers 64 bits, and numbers are finite doubles. Files are regular files: pipes, devices and "
-        "folders in their place are not opened."
+        "Files and options are checked before memory is allocated for them. An environment variable changes a bound. "
+        "Other limits cannot be changed: XML is at most 256 elements deep (libxml2's limit), names in TOML consist of "
+        "at most 100 parts, integers have 64 bits, and numbers are finite doubles. Pipes, devices and folders in place "
+        "of a regular file are not opened."
     )
     return "\n\n".join(["# Bounds", text, table(["variable", "at most", ""], rows)]) + "\n"
 
