@@ -10,3 +10,5 @@ rows = differs.any(axis=1)
 if rows.any():
     first = rows.idxmax()
     print(f"t = {here['time'][first]:g} s:", ", ".join(differs.columns[differs.loc[first]]))
+else:
+    print("no difference")
