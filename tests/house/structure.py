@@ -69,7 +69,11 @@ def flags(checkout: Checkout) -> Measure:
 
 def used_once(checkout: Checkout) -> Measure:
     """Count functions of `analysis` and `common`, undecorated and of at most six lines below the docstring, whose name
-    occurs once in all Python files (as a name or an attribute; imports and the definition apart)."""
+    occurs once in all Python files (as a name or an attribute; imports and the definition apart).
+
+    One stays if it is named after a formula or a unit, if a test or a table calls it, if it draws one figure or writes
+    one table of a page, or if its caller would otherwise have more than one subject.
+    """
     uses: Counter[str] = Counter()
     for source in checkout.sources:
         uses.update(node.id for node in source.nodes if isinstance(node, ast.Name))

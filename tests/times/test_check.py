@@ -37,6 +37,7 @@ def test_importers_are_folders_whose_files_import_the_room():
 
 def test_files_lie_where_the_room_does():
     assert "tests/mathlib/test_rng.py" in files_of(["fmus_src/mathlib"], inside=True)
+    assert "tests/blocks/sensors/test_lunar_sensors.py" in files_of(["fmus_src/sensors"], inside=True)
     assert files_of(["analysis/show"], inside=False) == sorted(
         path.relative_to(ROOT).as_posix() for path in (ROOT / "tests" / "show").glob("test_*.py")
     )
