@@ -79,7 +79,8 @@ def count(sources: Iterable[Source], limits: Limits) -> Counter[tuple[str, str]]
 def check_limits(counts: Counter[tuple[str, str]], limits: Limits) -> list[str]:
     """Return a line for each number above its limit."""
     return [
-        f"{key}: {counts[table, key]} in {table}, {stored} allowed: see python -m tests.house --list {key if table == 'names' else table}"
+        f"{key}: {counts[table, key]} in {table}, {stored} allowed: see python -m tests.house --list "
+        + (key if table == "names" else table)
         for table, numbers in limits.items()
         for key, stored in numbers.items()
         if counts[table, key] > stored
