@@ -42,14 +42,14 @@ class Bound:
         except ValueError:
             number = -1.0
         if not number > 0.0:
-            raise InputError(self.variable, text, "not a positive number", "correct or unset it")
+            raise InputError(self.variable, text, "not a positive number", "correct or unset this variable")
         return number
 
     def check(self, number: float, file: str | os.PathLike[str], element: str) -> None:
         """Raise ExcessError if a number exceeds the bound."""
         if number > self.limit:
             problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.limit:.6g} are accepted"
-            raise ExcessError(file, element, problem, f"if you trust it, set {self.variable}")
+            raise ExcessError(file, element, problem, f"if you trust this input, set {self.variable}")
 
 
 ARCHIVE_BYTES = Bound("archive_bytes", 2e9, "bytes", "content of an archive (.ssp, .fmu), unpacked")

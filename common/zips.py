@@ -15,8 +15,8 @@ from .errors import InputError
 
 END = b"PK\5\6"  # signature of the directory's last record
 REMEDY = "build or copy the file again"
-BACKSLASH = "repack it with / as the path separator"
-LINK = "repack it with the file or folder in place of the link"
+BACKSLASH = "repack the archive with / as the path separator"
+LINK = "repack the archive with the file or folder in place of the link"
 # errors of zipfile and its decompressors for damaged archives and other files
 UNREADABLE = (
     zipfile.BadZipFile,
@@ -52,11 +52,13 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
                 label, name, "a backslash in the file name, which the zip format does not allow", BACKSLASH
             )
         if name.startswith("/") or ".." in segments or ":" in segments[0]:
-            raise InputError(label, name, "the path leads out of the archive", "repack without it")
+            raise InputError(label, name, "the path leads out of the archive", "repack the archive without this file")
         if stat.S_ISLNK(entry.external_attr >> 16):
             raise InputError(label, name, "a symbolic link, which is not accepted in an archive", LINK)
         if checksums.setdefault(name, entry.CRC) != entry.CRC:
-            raise InputError(label, name, "two files with this name and different contents", "repack with one of them")
+            raise InputError(
+                label, name, "two files with this name and different contents", "repack the archive with one of the two"
+            )
     return archive
 
 

@@ -68,7 +68,7 @@ class Block(DataFiles, HasExternalState):
         for name, bundle in cls.bundles.items():
             if inspect.getattr_static(cls, name) is not bundle:
                 kind = f"a {bundle.bundle.__name__} of what {cls.__name__} derives from"
-                raise DeclarationError(f"{cls.__name__}.{name}: {kind}; give it another name")
+                raise DeclarationError(f"{cls.__name__}.{name}: {kind}; give the variable another name")
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
         problem = data_problem(cls.data, cls.python_only)
@@ -87,7 +87,7 @@ class Block(DataFiles, HasExternalState):
         before = cls.variables.get(name)
         if before is not None and before.causality != value.causality:
             kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
-            raise DeclarationError(f"{cls.__name__}.{name}: {kinds}; give it another name")
+            raise DeclarationError(f"{cls.__name__}.{name}: {kinds}; give the variable another name")
 
     @classmethod
     def _check_role(cls, name: str, variable: Variable) -> None:
@@ -95,7 +95,7 @@ class Block(DataFiles, HasExternalState):
         role = LIFE_CYCLE.get(name)
         if role is not None and (variable.size != 1 or variable.record or variable.type_name == "Boolean"):
             problem = f"is no number ({role.declared}: {role.effect})"
-            raise DeclarationError(f"{cls.__name__}.{name}: {problem}; make it one number, or give it another name")
+            raise DeclarationError(f"{cls.__name__}.{name}: {problem}; declare one number, or choose another name")
 
     @classmethod
     def _check_written(cls) -> None:

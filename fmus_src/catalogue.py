@@ -53,7 +53,7 @@ def _catalogue() -> dict[str, type[Block]]:
             for block in blocks_of(importlib.import_module(f"{__package__}.{kind}.{module.name}")):
                 if block.fmu_name in blocks:
                     raise ValueError(
-                        f"{block.__module__}.{block.__name__}: FMU name {block.fmu_name} is taken; rename it"
+                        f"{block.__module__}.{block.__name__}: FMU name {block.fmu_name} is taken; rename the block"
                     )
                 blocks[block.fmu_name] = block
     return blocks
@@ -83,7 +83,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     except Exception as error:  # an exception of the user's file is reported as one line
         # Python 3.11 wraps what a declaration raises
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
-        raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}; correct it") from error
+        raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}; correct the file") from error
     blocks = blocks_of(module)
     if not blocks:
         raise ValueError(f"{path}: defines no block; derive a class from perilune.Block or an interface of it")

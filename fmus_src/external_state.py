@@ -44,7 +44,9 @@ class HasExternalState:
         cls.external = tuple(dict.fromkeys(names))
         twice = next((name for name in names if name in cls.variables), None)
         if twice is not None:
-            raise DeclarationError(f"{cls.__name__}.{twice}: an ExternalState and a variable; give one another name")
+            raise DeclarationError(
+                f"{cls.__name__}.{twice}: both an ExternalState and a variable; rename one of the two"
+            )
         if names and not cls.python_only:
             problem = "an ExternalState, which a native FMU cannot have"
             raise DeclarationError(f"{cls.__name__}.{names[0]}: {problem}; add python_only = True, or declare a State")

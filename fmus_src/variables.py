@@ -106,13 +106,13 @@ class Variable:
         whole = next((name for name, field in self.numbers_of_record() if field.kind in (int, bool)), None)
         if whole is not None:
             problem = f"the field {whole} of its record is no float, as all numbers of a record's variable are"
-            raise DeclarationError(f"{where}: {problem}; declare that value as a variable of its own")
+            raise DeclarationError(f"{where}: {problem}; declare that field as a separate variable")
         if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not form rows of {self.columns}")
         for unit in filter(None, self.units()):
             if unit_definition(unit) is not None:
                 continue
-            remedy = "write it of m, kg, s, rad, N, deg and the like, as N.m/rad or 1/s2"
+            remedy = "write the unit in m, kg, s, rad, N, deg and the like, such as N.m/rad or 1/s2"
             raise DeclarationError(f"{where}: unit {unit!r} is unknown; {remedy}")
         if not self.description:
             raise DeclarationError(f"{where}: give a description")

@@ -27,18 +27,20 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z][a-z0-9]*)*", name) or keyword.iskeyword(name):
         problem = "not a valid name of a file, a class and an FMU"
         remedy = "use lower-case letters, digits and single underscores, a letter first and after each underscore"
-        raise InputError("new", name, problem, f"{remedy}, as {_suggest_name(name)}")
+        raise InputError("new", name, problem, f"{remedy}, such as {_suggest_name(name)}")
     if name == "perilune" or name in sys.stdlib_module_names:
-        raise InputError("new", name, f"hides Python's {name}", f"take another, as my_{name}")
+        raise InputError("new", name, f"hides Python's {name}", f"choose another name, such as my_{name}")
     if name in system_names():
-        raise InputError("new", name, "is a system of this repository", f"take another, as my_{name}")
+        raise InputError("new", name, "is a system of this repository", f"choose another name, such as my_{name}")
     for fmu in fmus:
         if fmu in catalogue():
-            raise InputError("new", name, f"{fmu} is an FMU of this repository", f"take another, as my_{name}")
+            raise InputError(
+                "new", name, f"{fmu} is an FMU of this repository", f"choose another name, such as my_{name}"
+            )
         built = [path for path in (own_fmu(fmu, flavour) for flavour in FLAVOURS) if path.exists()]
         if built:
             there = built[0].relative_to(Path.cwd())
-            raise InputError("new", name, f"there is {there} already", "take another name, or remove it")
+            raise InputError("new", name, f"there is {there} already", "choose another name, or remove this file")
 
 
 def _suggest_name(name: str) -> str:
@@ -51,4 +53,9 @@ def _suggest_name(name: str) -> str:
 def check_free(path: Path) -> None:
     """Reject the path of an existing file or folder. Raises InputError."""
     if path.exists() or path.is_symlink():
-        raise InputError("new", str(path), "exists already and is not overwritten", "take another name, or move it")
+        raise InputError(
+            "new",
+            str(path),
+            "exists already and is not overwritten",
+            "choose another name, or move the existing one away",
+        )

@@ -39,10 +39,10 @@ def check_unedited(path: Path, option: str = "") -> None:
     """Reject overwriting an SSD that `add_mark` did not mark, or that was edited since. Raises InputError."""
     if not os.path.lexists(path):
         return
-    content = read_input(path, "move it away", XML_BYTES)
+    content = read_input(path, "move this file away", XML_BYTES)
     match = MARK.search(content)
     if match is None:
-        remedy = f"move it away; perilune compose {path.parent} --output FILE.toml writes it as a system.toml"
+        remedy = f"move this file away; perilune compose {path.parent} --output FILE.toml writes it as a system.toml"
         raise InputError(path, option, f"was not written by perilune compose, {OTHERWISE}", remedy)
     if hashlib.sha256(content[match.end() :]).hexdigest().encode() != match["rest"]:
         problem = f"was edited since perilune compose wrote it, {OTHERWISE}"
@@ -53,12 +53,12 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
     """Reject overwriting a `system.toml` that was edited since the SSD was composed from it. Raises InputError."""
     if not os.path.lexists(path):
         return
-    content = read_input(path, "move it away", XML_BYTES)
-    match = MARK.search(read_input(ssd, "move it away", XML_BYTES)) if os.path.lexists(ssd) else None
+    content = read_input(path, "move this file away", XML_BYTES)
+    match = MARK.search(read_input(ssd, "move this file away", XML_BYTES)) if os.path.lexists(ssd) else None
     digest = hashlib.sha256(content).hexdigest().encode()
     if content != raw and (match is None or match["source"] != digest):
         problem = f"was edited since perilune compose read it, {OTHERWISE}"
-        raise InputError(path, "", problem, "move it away, or write to another folder")
+        raise InputError(path, "", problem, "move this file away, or write to another folder")
 
 
 def report_changed_source(system: str | Path) -> list[str]:
@@ -99,9 +99,9 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path, layer
 def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
     """Write all files or none; a file with other content is never overwritten. Raises InputError and OSError."""
     for path, content in contents.items():
-        if os.path.lexists(path) and read_input(path, "move it away", ARCHIVE_BYTES) != content:
+        if os.path.lexists(path) and read_input(path, "move this file away", ARCHIVE_BYTES) != content:
             raise InputError(
-                option or path, str(path) if option else "", f"exists already, {OTHERWISE}", "move it away"
+                option or path, str(path) if option else "", f"exists already, {OTHERWISE}", "move this file away"
             )
     for path, content in contents.items():
         write_atomically(path, content)

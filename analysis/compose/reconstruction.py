@@ -35,7 +35,7 @@ def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSourc
     ssd = archive.read(name, "SSD")
     description = read_description(archive, variant)
     if name.endswith(OSP_SUFFIX):
-        raise InputError(description.file, "", "is no SSD", KEEP.replace("SSD", "file"))
+        raise InputError(description.file, "", "is not an SSD", KEEP.replace("SSD", "file"))
     components = dict(_components(description))
     bindings, values = list(description.system.bindings), list[Assignment]()
     if bindings and bindings[-1].inline is not None and not _is_adapted(bindings[-1]):
@@ -91,7 +91,7 @@ def _parameters(description: SystemDescription, element: Element) -> tuple[str, 
     for binding in element.bindings:
         if binding.source is None or _is_adapted(binding):
             where = f"ParameterBinding (line {binding.line})"
-            problem = "with values inside, a prefix or a mapping cannot be expressed in a system.toml"
+            problem = "inline values, a prefix or a mapping cannot be expressed in a system.toml"
             raise InputError(description.file, where, problem, KEEP)
         name = binding.source.removeprefix(RESOURCES)
         names.append(name if set_source(name) == binding.source else binding.source)
@@ -109,7 +109,7 @@ def _annotations(ssd: bytes, description: SystemDescription) -> bytes:
     start = ssd.rfind(b"</ssd:DefaultExperiment>")
     match = ANNOTATIONS.search(ssd, max(start, 0))
     if match is None:
-        raise InputError(description.file, "Annotations", "absent under the prefix ssd", KEEP)
+        raise InputError(description.file, "Annotations", "not found under the namespace prefix ssd", KEEP)
     return match[1]
 
 

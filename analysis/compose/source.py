@@ -179,7 +179,7 @@ def _connectors(table: TomlTable) -> dict[str, str]:
     for kind in KINDS:
         for name in _list(table, kind):
             if name in kinds:
-                raise table.error(kind, f"{name} is {kinds[name]}, too", "name it under only one of them")
+                raise table.error(kind, f"{name} is also listed under {kinds[name]}", "list each variable once")
             kinds[name] = kind
     return kinds
 
@@ -190,7 +190,7 @@ def _set(table: TomlTable) -> Iterator[tuple[str, SetValue]]:
         for each in (each for row in rows for each in (row if isinstance(row, list) else [row])):
             if not isinstance(each, int | float):
                 problem = f"{each!r} is neither a number nor true or false"
-                raise table.error(name, problem, "write one, a list of them, or a list of rows")
+                raise table.error(name, problem, "write a number, true or false, a list of these, or a list of rows")
         yield name, setting  # type: ignore[misc]
 
 
@@ -201,7 +201,7 @@ def _units(table: TomlTable) -> Iterator[tuple[str, Unit]]:
         exponents = tuple(entry.get(base, integer, 0) for base in BASE_UNITS)
         unit = Unit(name, exponents, entry.get("factor", number, 1.0), entry.get("offset", number, 0.0))
         if not unit.factor:
-            raise entry.error("factor", "a factor of 0 cannot convert values", "give another number")
+            raise entry.error("factor", "a factor of 0 cannot convert values", "give a factor other than 0")
         yield name, unit
 
 

@@ -67,12 +67,12 @@ def _convert(
     values = _flatten(source, name, setting, array_shapes(types))
     if len(values) != len(types):
         problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)}"
-        raise source.problem(f"set.{name}", problem, "give one for each element")
+        raise source.problem(f"set.{name}", problem, "give one value for each element")
     for (element, type_name), each in zip(types.items(), values, strict=True):
         is_truth = type_name == "Boolean"
         if not isinstance(each, ACCEPTED.get(type_name, ())) or isinstance(each, bool) is not is_truth:
             problem = f"{each!r} is not of type {type_name}"
-            raise source.problem(f"set.{name}", problem, "give another, or use a parameter set (.ssv)")
+            raise source.problem(f"set.{name}", problem, "give a value of this type, or use a parameter set (.ssv)")
         yield element, ACCEPTED[type_name][0](each)
 
 

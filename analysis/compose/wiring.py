@@ -234,7 +234,7 @@ class _Wirer:
             return
         inputs = set(self.open_inputs(component))
         if not inputs:
-            self.refuse(entry, f"all inputs of {component} are connected or named", "remove it")
+            self.refuse(entry, f"all inputs of {component} are connected or named", "remove this entry")
         self.left |= {(component, name) for name in inputs}
 
     def open_inputs(self, component: str) -> list[str]:

@@ -68,8 +68,13 @@ def read_run(path: Path) -> RecordedRun:
         raise InputError(path, TIME, "no such column", FORM)
     signals = {name: _numbers(table, name, path) for name in names}
     time = signals.pop(TIME)
-    if not time.size or not np.all(np.diff(time) > 0.0) or not np.all(np.isfinite(time)):
-        raise InputError(path, TIME, "no samples, or times that do not ascend", FORM)
+    if not time.size:
+        raise InputError(path, TIME, "no samples", FORM)
+    is_good = np.isfinite(time) & np.append(True, np.diff(time) > 0.0)
+    if not np.all(is_good):
+        row = int(np.argmin(is_good))
+        fault = "is not above that of the preceding row" if np.isfinite(time[row]) else "is not finite"
+        raise InputError(path, TIME, f"the time in row {row + 1}, {time[row]:.12g}, {fault}", FORM)
     fields = [field for field in table.schema if field.name != TIME]
     units = {field.name: _unit(field) for field in fields} if is_parquet else about.get("units", {})
     types, relative, axes = about.get("types", {}), about.get("relative_quantities"), about.get("axes")
@@ -103,7 +108,7 @@ def _read_document(path: Path) -> dict[str, Any]:
     """Read the .json file of a CSV file; empty if there is none. Raises InputError."""
     if not path.exists():
         return {}
-    remedy = "remove it, or simulate again"
+    remedy = "remove this file, or simulate again"
     try:
         document = json.loads(read_input(path, remedy, INPUT_BYTES).decode())
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -127,7 +132,7 @@ def _numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
             column = column.cast(pyarrow.int8())
         return np.asarray(column.cast(pyarrow.float64()).to_numpy(zero_copy_only=False), dtype=np.float64)
     except (ValueError, pyarrow.ArrowException) as error:
-        raise InputError(path, name, "not a column of numbers", "leave it out") from error
+        raise InputError(path, name, "not a column of numbers", "remove this column") from error
 
 
 def _origin(about: Mapping[str, object]) -> str:

@@ -151,7 +151,7 @@ def _table(files: Mapping[str, bytes], name: str, label: str) -> Trajectory:
 
 def _content(files: Mapping[str, bytes], name: str, label: str) -> bytes:
     if name not in files:
-        raise InputError(f"{label}!{name}", "file", "missing, though an experiment names it", "export the file again")
+        raise InputError(f"{label}!{name}", "file", "missing, although an experiment names it", "export the file again")
     return files[name]
 
 

@@ -34,7 +34,7 @@ class Trajectory:
         """
         for name in self.texts:
             if name not in without:
-                raise InputError(self.file, f"column {name}", "not numbers, as an input needs", "write numbers")
+                raise InputError(self.file, f"column {name}", "not numbers, which an input needs", "write numbers")
         columns = {name: samples for name, samples in self.signals.items() if name not in without}
         return InputSeries(self.file, self.sha256, self.time, columns)
 
@@ -61,8 +61,17 @@ def read_trajectory(content: bytes, file: str) -> Trajectory:
         raise InputError(file, TIME, "no such column of numbers, or no samples", FORM)
     time = signals.pop(TIME)
     if not np.all(np.isfinite(time)) or np.any(np.diff(time) < 0.0):
-        raise InputError(file, TIME, "times that are not finite, or fall", "sort the samples by time")
+        raise InputError(file, TIME, *_fault_of(time))
     return Trajectory(file, hashlib.sha256(content).hexdigest(), time, signals, tuple(texts))
+
+
+def _fault_of(time: np.ndarray) -> tuple[str, str]:
+    """Return problem and remedy of times that are not finite or decrease."""
+    if not np.all(np.isfinite(time)):
+        row = int(np.argmin(np.isfinite(time)))
+        return f"{time[row]} in row {row + 1} is not finite", "write a finite time in every row"
+    row = int(np.argmax(np.diff(time) < 0.0)) + 1
+    return f"{time[row]:.12g} s in row {row + 1} is before the time of the preceding row", "sort the rows by time"
 
 
 def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:

@@ -41,7 +41,9 @@ def find_block_file(name: str) -> Path | None:
         return file
     files = [path for path in sorted(Path().glob("*.py")) if name in defines(path)]
     if len(files) > 1:
-        raise InputError("export", name, f"defined in {', '.join(map(str, files))}", "give the file")
+        raise InputError(
+            "export", name, f"defined in {', '.join(map(str, files))}", "give the path of one of these files"
+        )
     return files[0] if files else None
 
 
@@ -58,7 +60,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
     blocks = [block for block in blocks_in_file(file) if only in (None, block.fmu_name)]
     if requested and all(block.python_only for block in blocks):
         problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
-        raise InputError("`platforms`", requested[0], problem, "leave it out")
+        raise InputError("`platforms`", requested[0], problem, "leave out `platforms`")
     if flavours == ["native"] and not platforms:
         raise no_compiler(file, fmi)
     if output is None:
@@ -80,7 +82,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         problem = (
             "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are more than one FMU"
         )
-        raise InputError("`output`", str(output), problem, "leave it out: FMUs go to build/fmus")
+        raise InputError("`output`", str(output), problem, "leave out `output`: FMUs are written to build/fmus")
     if flavour is None and blocks[0].python_only and fmi == 2:
         flavours = ["python"]
     with tempfile.TemporaryDirectory() as name:

@@ -30,9 +30,9 @@ class ExportRequest:
     def __post_init__(self) -> None:
         if self.platforms and self.flavour == "python":
             problem = "Python FMUs have no platform to choose"
-            raise InputError("`platforms`", self.platforms[0], problem, "leave it out")
+            raise InputError("`platforms`", self.platforms[0], problem, "leave out `platforms`")
         if self.fmi == 3 and self.flavour == "python":
-            raise InputError("`flavour`", "python", "Python FMUs are of FMI 2.0", "leave it out, or leave out `fmi`")
+            raise InputError("`flavour`", "python", "Python FMUs are FMI 2.0 FMUs", "leave out `flavour` or `fmi`")
         for platform in self.platforms:
             if PLATFORMS[platform].fmi != self.fmi:
                 remedy = f"for FMI {self.fmi}.0 give {', '.join(platforms_of(self.fmi))}"
@@ -44,11 +44,11 @@ class ExportRequest:
         for option, is_chosen in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
             if is_chosen:
                 value = str(getattr(self, option))
-                problem = "a system as one FMU needs native FMUs, and is an FMU of FMI 2.0"
-                raise InputError(f"`{option}`", value, problem, "leave it out, or leave out `as_fmu`")
+                problem = "a system as one FMU is an FMI 2.0 FMU made of native FMUs"
+                raise InputError(f"`{option}`", value, problem, f"leave out `{option}` or `as_fmu`")
         if self.studies:
             problem = "a system as one FMU cannot contain reports"
-            raise InputError("`studies`", self.studies[0], problem, "leave it out, or leave out `as_fmu`")
+            raise InputError("`studies`", self.studies[0], problem, "leave out `studies` or `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
         """Return the requested platforms; by default those of the installed package or of the available compilers."""

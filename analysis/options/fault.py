@@ -37,7 +37,9 @@ class Fault:
         if not math.isfinite(self.value):
             raise InputError("fault", self.name, f"the value {self.value} is not finite", "give a number")
         if self.kind == "freeze" and self.value != 0.0:
-            raise InputError("fault", self.name, "a freeze has no value", "omit it: a freeze holds the current value")
+            raise InputError(
+                "fault", self.name, "a freeze has no value", "omit the value: a freeze holds the current value"
+            )
         if not self.start < self.stop:
             start, stop = number_text(self.start), number_text(self.stop)
             problem = f"empty window: the end, {stop} s, is not after the start, {start} s"
@@ -64,7 +66,7 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
         raise InputError(option, text, f"not of the form {FORM}", "use this form")
     name, kind = match["name"].strip(), match["kind"].strip()
     if kind == "freeze" and match["value"] is not None:
-        raise InputError(option, text, "a freeze has no value", "omit it: a freeze holds the current value")
+        raise InputError(option, text, "a freeze has no value", "omit the value: a freeze holds the current value")
     if kind in ("override", "bias") and match["value"] is None:
         raise InputError(option, text, f"{kind} lacks its value", f"write {kind}:VALUE")
     try:

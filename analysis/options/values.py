@@ -34,14 +34,16 @@ def _parse_number(declared: Declared, kind: Kind, text: str, name: str = "") -> 
     except ValueError:
         whole = "a whole number" if kind is Kind.INTEGER else f"a finite number{_of_unit(declared)}"
         element = ": ".join(part for part in (name, repr(text)) if part)
-        raise InputError(f"`{declared.name}`", element, f"not {whole}", "give one") from None
+        raise InputError(f"`{declared.name}`", element, f"not {whole}", f"give {whole}") from None
 
 
 def check_number(declared: Declared, argument: float | int, text: str = "") -> float | int:
     """Return the number if it is finite and within the option's bounds. Raises InputError."""
     option, text = declared.option, text or f"{argument:g}"
     if not math.isfinite(argument):
-        raise InputError(f"`{declared.name}`", repr(text), f"not a finite number{_of_unit(declared)}", "give one")
+        raise InputError(
+            f"`{declared.name}`", repr(text), f"not a finite number{_of_unit(declared)}", "give a finite number"
+        )
     if option.above is not None and argument <= option.above:
         raise InputError(f"`{declared.name}`", text, f"not above {option.above:g}", "give a larger number")
     if option.minimum is not None and argument < option.minimum:
@@ -67,7 +69,7 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
             form = declared.option.metavar or declared.option.form
             raise InputError(f"`{declared.name}`", text, f"not of the form {form}", "use this form")
         if name.strip() in pairs:
-            raise InputError(f"`{declared.name}`", text, f"{name.strip()} is given twice", "give it once")
+            raise InputError(f"`{declared.name}`", text, f"{name.strip()} is given twice", "give each name once")
         if declared.element is Kind.NUMBER:
             pairs[name.strip()] = _parse_number(declared, Kind.NUMBER, argument.strip(), name.strip())
         else:
@@ -94,12 +96,12 @@ def _check_list(declared: Declared, argument: Any) -> tuple[object, ...]:
     if isinstance(argument, str | os.PathLike):
         text = os.fspath(argument)
         remedy = f'give {declared.name}=["{text}"]'
-        raise InputError(f"`{declared.name}`", text, "one name where a list is meant", remedy)
+        raise InputError(f"`{declared.name}`", text, "a single name, but a list is needed", remedy)
     is_number = isinstance(argument, Real) and not isinstance(argument, bool)
     if is_number and declared.element in (Kind.NUMBER, Kind.INTEGER):
         return (argument,)
     if not isinstance(argument, Iterable) or isinstance(argument, Mapping):
-        raise InputError(f"`{declared.name}`", repr(argument), "no list", f"give {declared.name}=[...]")
+        raise InputError(f"`{declared.name}`", repr(argument), "not a list", f"give {declared.name}=[...]")
     elements = tuple(argument)
     for each in elements if declared.choices else ():
         _check_choice(declared, each)
@@ -111,10 +113,15 @@ def _check_pairs(declared: Declared, argument: Any) -> dict[str, object]:
         name, _, text = str(argument).partition("=")
         example = f'give {declared.name}={{"{name}": {text if _is_number(text) else repr(text)}}}'
         remedy = example if text and isinstance(argument, str) else f"give {declared.name}={{NAME: VALUE, ...}}"
-        raise InputError(f"`{declared.name}`", repr(argument), "no dictionary", remedy)
+        raise InputError(f"`{declared.name}`", repr(argument), "not a dictionary", remedy)
     for name, each in argument.items():
         if declared.takes_paths and not isinstance(each, str | os.PathLike | list | tuple):
-            raise InputError(f"`{declared.name}`", f"{name}: {each!r}", "no name and no path", "give one, in quotes")
+            raise InputError(
+                f"`{declared.name}`",
+                f"{name}: {each!r}",
+                "neither a name nor a path",
+                "give a name or a path in quotes",
+            )
     return dict(argument)
 
 
@@ -124,14 +131,14 @@ def _check_number(declared: Declared, argument: Any) -> float | int:
     if not is_number or (kind is Kind.INTEGER and not float(argument).is_integer()):
         what = "a whole number" if kind is Kind.INTEGER else f"a number{_of_unit(declared)}"
         is_text = isinstance(argument, str) and _is_number(argument)
-        remedy = f"give {declared.name}={argument}" if is_text else "give one"
+        remedy = f"give {declared.name}={argument}" if is_text else f"give {what}"
         raise InputError(f"`{declared.name}`", repr(argument), f"not {what}", remedy)
     return check_number(declared, int(argument) if kind is Kind.INTEGER else float(argument))
 
 
 def _check_flag(declared: Declared, argument: Any) -> bool:
     if argument not in (True, False):
-        raise InputError(f"`{declared.name}`", repr(argument), "neither True nor False", "give one of them")
+        raise InputError(f"`{declared.name}`", repr(argument), "neither True nor False", "give True or False")
     return bool(argument)
 
 

@@ -43,8 +43,10 @@ def read_query(text: str, columns: int, variants: int) -> Query:
     except (msgspec.DecodeError, RecursionError) as error:
         raise InputError("query", "", str(error), remedy) from error
     numbers = [*query.histograms, *(index for pair in query.grids for index in pair)]
-    if max([*numbers, *(each.column for each in query.ranges)], default=0) >= columns:
-        raise InputError("query", "", f"the campaign has {columns} columns", remedy)
-    if max(query.variants or [], default=0) >= variants:
-        raise InputError("query", "", f"the campaign has {variants} variants", remedy)
+    column = max([*numbers, *(each.column for each in query.ranges)], default=0)
+    if column >= columns:
+        raise InputError("query", "", f"asks for column {column + 1}, but the campaign has {columns}", remedy)
+    variant = max(query.variants or [], default=0)
+    if variant >= variants:
+        raise InputError("query", "", f"asks for variant {variant + 1}, but the campaign has {variants}", remedy)
     return query

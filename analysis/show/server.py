@@ -115,5 +115,7 @@ def _listen(port: int) -> socket.socket:
         listening.bind((HOST, port))
     except OSError as error:
         listening.close()
-        raise InputError("`port`", str(port), error.strerror or str(error), "give another one, or none") from error
+        raise InputError(
+            "`port`", str(port), error.strerror or str(error), "give another port, or leave out `port`"
+        ) from error
     return listening

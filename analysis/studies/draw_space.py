@@ -42,7 +42,7 @@ class DrawSpace:
     def check_varies(self) -> None:
         """Reject a space in which no draw varies. Raises InputError."""
         if not self.size:
-            raise InputError(self.campaign.file, "draw", "no draw varies", "declare a [draw.NAME], or hold fewer")
+            raise InputError(self.campaign.file, "draw", "no draw varies", "declare a [draw.NAME], or hold fewer draws")
 
     @property
     def independent(self) -> bool:
@@ -119,5 +119,5 @@ class DrawSpace:
         if isinstance(distribution, Continuous):
             return draw.names, distribution
         problem = f"a {distribution.keyword} has discrete values, but this study needs a continuous draw"
-        remedy = f"hold it: `hold` {draw.name}={values[0]:g}, or another value"
+        remedy = f"hold this draw: `hold` {draw.name}={values[0]:g}, or another value"
         raise InputError(self.campaign.file, f"draw.{draw.name}", problem, remedy)

@@ -47,7 +47,7 @@ def sensitivity(
         draw = next(draw for draw in plan.campaign.draws if len(draw.names) > 1 and draw.names[0] in space.names)
         problem = "jointly normal values have no separate indices"
         held = " ".join(f"`hold` {name}=VALUE" for name in draw.names)
-        raise InputError(plan.campaign.file, f"draw.{draw.name}", problem, f"hold them: {held}")
+        raise InputError(plan.campaign.file, f"draw.{draw.name}", problem, f"hold these values: {held}")
     random = np.random.Generator(np.random.Philox(np.random.SeedSequence(plan.campaign.seed)))
     with SampleFlights(
         plan, space.from_normals(np.zeros((1, space.size))), noise_trial=noise_trial, workers=workers

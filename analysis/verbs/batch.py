@@ -117,7 +117,7 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
             "`resume`",
             "`overwrite`",
             "one keeps the stored results, the other overwrites them",
-            "leave one of them out",
+            "leave out `resume` or `overwrite`",
         )
     if options["retry_crashed"] and not options["resume"]:
         raise InputError("`retry_crashed`", "", "no stored trials to simulate again", "give `resume`")

@@ -91,8 +91,10 @@ def _find_lookup(plan: BatchPlan) -> Lookup:
     for lookup in plan.campaign.lookups:
         if lookup.name == LOOKUP:
             return lookup
-    problem = "it does not declare the inputs of its trials' bounds"
-    raise InputError(plan.campaign.file, f"lookup.{LOOKUP}", problem, 'add one: "Planning" in the documentation')
+    problem = "the campaign does not declare the inputs of its trials' bounds"
+    raise InputError(
+        plan.campaign.file, f"lookup.{LOOKUP}", problem, f'add [lookup.{LOOKUP}]; see "Planning" in the documentation'
+    )
 
 
 def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArchive]:

@@ -69,7 +69,7 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
         return Composition(source, tuple(write_source(source, archive, Path(output), layers)))
     if output is not None:
         problem = f"an SSD is written next to its file, as {DESCRIPTION}"
-        raise InputError("`output`", os.fspath(output), problem, "leave it out")
+        raise InputError("`output`", os.fspath(output), problem, "leave out `output`")
     target = path.parent / DESCRIPTION
     source, document = compose_file(path)
     check_unedited(target)

@@ -46,7 +46,7 @@ class Description(Documented, dict[str, Any]):
 
         if self.prepare is None:
             problem = "only systems and FMUs have a block diagram"
-            raise InputError("`report`", os.fspath(path), problem, "describe a system or an FMU, or leave it out")
+            raise InputError("`report`", os.fspath(path), problem, "describe a system or an FMU, or leave out `report`")
         write_document(system_document(self.prepare()), Path(path))
 
     def document(self) -> Document:
@@ -70,11 +70,13 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     if options["campaign"] is not None:
         if component is not None or system != System():
             problem = "a campaign is described without a component and without other options"
-            raise InputError("`campaign`", options["campaign"], problem, "leave them out")
+            raise InputError(
+                "`campaign`", options["campaign"], problem, "leave out the component and the other options"
+            )
         return Description(describe_campaign(name, options["campaign"]))
     if names_fmu(name) or name in catalogue() or name in fmu_flavours():
         if component is not None:
-            raise InputError("describe", component, "an FMU has no components", "name a system before it")
+            raise InputError("describe", component, "an FMU has no components", "name a system before the component")
         return _describe_fmu(name, system)
     if name in slots():
         return _describe_slot(name)

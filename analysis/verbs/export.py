@@ -96,7 +96,9 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
         value = options[name]  # type: ignore[literal-required]
         if value != defaults[name]:
             text = ", ".join(map(str, value)) if isinstance(value, Mapping | list | tuple) else str(value)
-            raise InputError(f"`{name}`", text, "applies only to a system as one FMU", "give `as_fmu`, or leave it out")
+            raise InputError(
+                f"`{name}`", text, "applies only to a system as one FMU", "give `as_fmu`, or leave out this option"
+            )
     return None
 
 
@@ -146,7 +148,10 @@ def _export(request: ExportRequest) -> ExportedFiles:
     for option, value in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
         if value and not is_system:
             raise InputError(
-                f"`{option}`", value, f"{text} is not a system, and the option applies only to systems", "leave it out"
+                f"`{option}`",
+                value,
+                f"{text} is not a system, and the option applies only to systems",
+                "leave out this option",
             )
     if text.endswith(".py"):
         check_file_exists(Path(text))
@@ -170,11 +175,11 @@ def _export_named(request: ExportRequest) -> ExportedFiles:
         path = request.output or Path(f"{_archive_name(name)}.ssp")
         check_file("`output`", path, (".ssp",))
         if fmi == 3 and request.ssp == "1":
-            problem = "FMUs of FMI 3.0 have arrays, which SSP 1.0 does not support"
+            problem = "FMI 3.0 FMUs have arrays, which SSP 1.0 does not support"
             raise InputError("`ssp`", request.ssp, problem, "give 2, or leave out `fmi`")
         export_system(open_system(name), path, flavour, platforms, request)
     else:
-        problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
+        problem = "no FMU, system, .py file or block of a .py file here has this name"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
         raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names(), *own]))
     return ExportedFiles((path,), (flavour,), tuple(platforms))

@@ -90,11 +90,11 @@ def plan_hover_transfer(
     """
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
         problem = "without effect unless `optimum` or `bound` is given"
-        raise InputError("`intervals`", str(options["intervals"]), problem, "give one of them with it")
+        raise InputError("`intervals`", str(options["intervals"]), problem, "also give `optimum` or `bound`")
     for name, base in NEEDS.items():
         if options[name] and not options[base]:  # type: ignore[literal-required]
             problem = f"without effect unless `{base}` is given"
-            raise InputError(f"`{name}`", "", problem, "give it, too")
+            raise InputError(f"`{name}`", "", problem, f"also give `{base}`")
     transfer = replace(transfer, **format_numbers(options, ("distance", "descent", "gravity")))
     vehicle = check_vehicle(replace(vehicle, **format_numbers(options, OF_VEHICLE)))
     margins = _margins(options, vehicle)
@@ -202,7 +202,9 @@ def _read_inputs(prepared: PreparedSystem) -> Inputs:
     inputs = read_inputs(prepared)
     if inputs is None:
         problem = f"no annotation {ANNOTATION}: the system does not declare the inputs of its landing's bound"
-        raise InputError(prepared.network.file, "Annotations", problem, 'add one: "Planning" in the documentation')
+        raise InputError(
+            prepared.network.file, "Annotations", problem, 'add this annotation; see "Planning" in the documentation'
+        )
     return inputs
 
 
@@ -213,4 +215,4 @@ def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> Non
     check_stored_system(prepared.archive)
     if changed:
         problem = "a stored bound uses the system's own values"
-        raise InputError("`store`", f"`{changed[0]}`", problem, "leave one out")
+        raise InputError("`store`", f"`{changed[0]}`", problem, f"leave out `store` or `{changed[0]}`")

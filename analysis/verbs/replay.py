@@ -167,7 +167,7 @@ def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> Replaye
         return replay_plan(plan, trial, options["configuration"])
     for name in record_options(ReplayOptions, options):
         if name not in OF_A_FOLDER:
-            problem = "a campaign's folder has its own"
-            raise InputError(f"`{name}`", "", problem, "leave it out, or give a system and `campaign`")
+            problem = "a campaign's folder already contains these"
+            raise InputError(f"`{name}`", "", problem, f"leave out `{name}`, or give a system and `campaign`")
     watch = {name: options[name] for name in ("log", "timeout")}
     return replay_trial(Path(source), trial, options["configuration"], trust=select_permissions(options), **watch)

@@ -41,7 +41,7 @@ if TYPE_CHECKING:  # imported where needed: half of the time of a run without th
 
     from ..documents.diagram.diagram import BlockDiagram
 
-STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
+STUCK = "nothing is written; see the FMU's messages with `log` all, or give a longer `timeout`"
 
 
 @dataclass(repr=False, kw_only=True)

@@ -51,7 +51,12 @@ def prepare(
     """
     folder = Path(output)
     if options["resume"] and options["overwrite"]:
-        raise InputError("`resume`", "`overwrite`", "one keeps what is stored, one does not", "leave one of them out")
+        raise InputError(
+            "`resume`",
+            "`overwrite`",
+            "one keeps the stored results, the other overwrites them",
+            "leave out `resume` or `overwrite`",
+        )
     is_kept = options["overwrite"] or options["resume"]
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     with chdir(Path.cwd()):  # an FMU may change the folder

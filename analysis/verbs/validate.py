@@ -93,7 +93,7 @@ def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[ValidateOp
     system, all_variants = system_options(options), options["all_variants"]
     if all_variants and system.chosen["variant"] is not None:
         raise InputError(
-            "`all_variants`", str(system.chosen["variant"]), "a `variant` is given, too", "give one of the two"
+            "`all_variants`", str(system.chosen["variant"]), "`variant` is also given", "give one of the two"
         )
     names = path_list(paths)
     systems = [name for name in names if not name.endswith(FILES)]
@@ -106,7 +106,10 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
     try:
         if path.endswith(FILES) and options.replace(strict=False) != System():
             raise InputError(
-                path, "system options", "not a system, and the option applies only to systems", "check it by itself"
+                path,
+                "system options",
+                "not a system, and the option applies only to systems",
+                "validate this file alone",
             )
         if names_fmu(path):
             fmu = load_fmu(_read(path), path)

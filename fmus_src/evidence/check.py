@@ -94,7 +94,9 @@ def _read_declarations(path: Path) -> dict[str, Any]:
     for key, kind in KEYS.items():
         value = declared.get(key)
         if not (_is_number(value) if kind is float else isinstance(value, kind)):
-            raise CheckError(f"{path}: {key}: missing, or of another type than {kind.__name__}; add it")
+            raise CheckError(
+                f"{path}: {key}: missing, or of another type than {kind.__name__}; write {key} as {kind.__name__}"
+            )
     if declared["step_size"] <= 0.0:
         raise CheckError(f"{path}: step_size: {declared['step_size']:g} s; give a positive step")
     for name, bounds in declared["tolerances"].items():
@@ -122,15 +124,21 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
     if next(iter(columns), None) != TIME:
         raise CheckError(f"{table}: line 1: the first column is not {TIME}; write time, inputs, outputs")
     times = columns[TIME]
-    if not all(map(math.isfinite, times)) or any(later < earlier for earlier, later in pairwise(times)):
-        raise CheckError(f"{table}: column {TIME}: a time is not finite or decreases; sort the rows")
+    for row, (earlier, later) in enumerate(pairwise([-math.inf, *times]), 1):
+        if not math.isfinite(later):
+            raise CheckError(f"{table}: row {row}, {TIME}: {later} is not finite; write a finite time")
+        if later < earlier:
+            raise CheckError(f"{table}: row {row}, {TIME}: {later!r} is before {earlier!r}; sort the rows by time")
     for name in check.tolerances:
         if name not in columns:
-            raise CheckError(f"{declarations}: tolerances.{name}: {table.name} has no such column; add it")
+            problem = f"{table.name} has no such column; add the column, or remove the tolerance"
+            raise CheckError(f"{declarations}: tolerances.{name}: {problem}")
     for name in columns:
         is_output = isinstance(elements.get(name), Output) and name in check.tolerances
         if name != TIME and not isinstance(elements.get(name), Input) and not is_output:
-            raise CheckError(f"{table}: column {name}: neither an input nor an output with a tolerance; remove it")
+            raise CheckError(
+                f"{table}: column {name}: neither an input nor an output with a tolerance; remove the column"
+            )
     for name, number in check.parameters.items():
         variable = elements.get(name)
         if not isinstance(variable, Parameter | Input):
@@ -138,4 +146,6 @@ def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declara
         types = PARAMETER_TYPES[variable.type_name]
         if type(number) not in types or not math.isfinite(number):
             kinds = " or ".join(each.__name__ for each in types)
-            raise CheckError(f"{declarations}: parameters.{name}: {number!r} is not a finite {kinds}; correct it")
+            raise CheckError(
+                f"{declarations}: parameters.{name}: {number!r} is not a finite {kinds}; correct the value"
+            )

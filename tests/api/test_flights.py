@@ -144,7 +144,7 @@ def test_faults_are_given_as_texts_too(fmus):
     np.testing.assert_array_equal(actual["plant.velocity"], expected["plant.velocity"])
     with pytest.raises(perilune.InputError, match=r"faults: plant\.thrust=broken@1: unknown kind broken"):
         perilune.simulate(SYSTEM, stop_time=3.0, faults=["plant.thrust=broken@1"])
-    with pytest.raises(perilune.InputError, match="one name where a list is meant"):
+    with pytest.raises(perilune.InputError, match="a single name, but a list is needed"):
         perilune.simulate(SYSTEM, stop_time=3.0, faults=str(fault))
 
 

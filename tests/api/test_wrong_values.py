@@ -16,16 +16,16 @@ WRONG = {
     "set": ("plant.initial_mass=950", 'give set={"plant.initial_mass": 950}'),
     "use": ("guidance=astar_guidance", """give use={"guidance": 'astar_guidance'}"""),
     "stop_time": ("5", "not a number of seconds; give stop_time=5"),
-    "timeout": ("soon", "not a number of seconds; give one"),
-    "parameters": (3, "no list; give parameters=[...]"),
-    "record": (5, "no list; give record=[...]"),
+    "timeout": ("soon", "not a number of seconds; give a number"),
+    "parameters": (3, "not a list; give parameters=[...]"),
+    "record": (5, "not a list; give record=[...]"),
     "strict": ("yes", "neither True nor False"),
 }
 WRONG_CAMPAIGN = {
     "trials": ("20", "not a whole number; give trials=20"),
-    "seed": (2.5, "not a whole number; give one"),
-    "workers": (True, "not a whole number; give one"),
-    "compare": ("guidance=a,b", "no dictionary; give compare="),
+    "seed": (2.5, "not a whole number; give a whole number"),
+    "workers": (True, "not a whole number; give a whole number"),
+    "compare": ("guidance=a,b", "not a dictionary; give compare="),
 }
 
 
@@ -53,7 +53,9 @@ def test_options_of_a_campaign(name):
 
 
 def test_an_fmu_that_is_no_name():
-    assert "use: guidance: 3: no name and no path" in refused(lambda: perilune.simulate(SYSTEM, use={"guidance": 3}))
+    assert "use: guidance: 3: neither a name nor a path" in refused(
+        lambda: perilune.simulate(SYSTEM, use={"guidance": 3})
+    )
 
 
 @pytest.mark.usefixtures("fmus")

@@ -126,14 +126,14 @@ def test_python_is_as_ruff_writes_it(tmp_path, monkeypatch):
         (["system", "class"], ["class", "as my_class"]),
         (["system", "sub/mine"], ["sub/mine", "as sub_mine"]),
         (["block", "math"], ["hides Python's math", "my_math"]),
-        (["block", "astar_guidance"], ["astar_guidance is an FMU of this repository", "take another"]),
+        (["block", "astar_guidance"], ["astar_guidance is an FMU of this repository", "choose another"]),
         (["block", "lunar_landing"], ["is a system of this repository"]),
         (["system", "lunar_landing"], ["is a system of this repository"]),
         (["block", "mine", "--slot", "terminal_guidence"], ["--slot", "no such slot", "terminal_guidance"]),
         (["block", "mine", "--slot", "gyro_steering"], ["--slot", "no block template", "use one of allocation"]),
         (["block", "taken"], ["taken.py", "exists already and is not overwritten"]),
         (["system", "there"], ["there", "exists already and is not overwritten"]),
-        (["block", "built"], ["build/fmus/native/built.fmu already", "remove it"]),
+        (["block", "built"], ["build/fmus/native/built.fmu already", "remove this file"]),
     ],
 )
 def test_what_is_refused(arguments, words, tmp_path, monkeypatch, capsys):

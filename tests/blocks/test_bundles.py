@@ -121,7 +121,9 @@ def test_declarations_that_do_not_fit_are_refused(declared: dict, message: str) 
 
 
 def test_a_method_with_the_name_of_a_bundle_is_refused() -> None:
-    with pytest.raises(DeclarationError, match=r"Named\.two: a Level of what Named derives from; give it another name"):
+    with pytest.raises(
+        DeclarationError, match=r"Named\.two: a Level of what Named derives from; give the variable another name"
+    ):
 
         class Named(Bundled):
             """Has a method two."""

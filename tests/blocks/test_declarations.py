@@ -56,7 +56,7 @@ def test_a_record_with_a_field_that_is_no_float_is_refused(kind):
 def test_what_the_life_cycle_computes_with_is_one_number(name, start):
     message = refusal(**{name: State(start, description="of another meaning")})
     assert f"Refused.{name}: is no number" in message
-    assert message.endswith("make it one number, or give it another name")
+    assert message.endswith("declare one number, or choose another name")
 
 
 def test_other_names_with_a_role_stay_free():

@@ -204,7 +204,7 @@ def test_a_native_block_cannot_have_one(folder, tmp_path, capsys):
 
 def test_one_name_for_two_is_refused(folder):
     base = block_in(folder / "my_oscillator.py")
-    with pytest.raises(perilune.DeclarationError, match="simulation: an ExternalState and a variable"):
+    with pytest.raises(perilune.DeclarationError, match="simulation: both an ExternalState and a variable"):
         type("Other", (base,), {"__doc__": "Other.", "simulation": perilune.State(0.0, description="a number")})
 
 

@@ -203,9 +203,7 @@ def test_a_declared_loop_at_several_times(packed, tmp_path, capsys):
 def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
     end = '<Point name="brief" time="10" until="15"/><Loop name="short" cut="plant.position" points="brief"/>'
     path = packed(loops=end)
-    assert "--at: 15: point brief lasts until 15 s; " in refusal(
-        ["stability", path, "--loop", "short", "--at", "12,15"]
-    )
+    assert "--at: 15: point brief ends at 15 s; " in refusal(["stability", path, "--loop", "short", "--at", "12,15"])
 
 
 @pytest.mark.parametrize(
@@ -215,9 +213,9 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
         (["--loop", "plant.q"], "no connector plant.q"),
         (["--at", "3,-1"], "--at: -1: not a time of the simulation; give seconds from 0 on"),
         (["--data", "/dev/null/x"], "--data: /dev/null/x: /dev/null is a file; give another folder"),
-        (["--trial", "0"], "--trial: 0: there is no campaign"),
-        (["--trials", "3"], "--trials: 3: there is no campaign"),
-        (["--seed", "3"], "--seed: 3: there is no campaign"),
+        (["--trial", "0"], "--trial: 0: needs a campaign"),
+        (["--trials", "3"], "--trials: 3: needs a campaign"),
+        (["--seed", "3"], "--seed: 3: needs a campaign"),
         (["--campaign", "none"], "late_double_integrator.ssp: --campaign: no none in the system"),
         (["--campaign", "CAMPAIGN", "--trial", "6"], f"--trial: 6: the campaign has trials 0 to {TRIALS - 1}"),
         (["--campaign", "CAMPAIGN", "--trial", "-1"], f"--trial: -1: the campaign has trials 0 to {TRIALS - 1}"),
@@ -240,7 +238,7 @@ def test_wrong_input(plain, campaign, tmp_path, monkeypatch, capsys, arguments, 
 def test_a_system_without_loops(capsys):
     assert main(["stability", "lunar_terminal_guidance"]) == 2
     error = capsys.readouterr().err
-    assert "declares no loops; name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at" in error
+    assert "declares no loops; name a loop in the SSD, or cut a loop with --loop COMPONENT.CONNECTOR --at" in error
     assert error.count("\n") == 1
 
 

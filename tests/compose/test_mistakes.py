@@ -100,11 +100,11 @@ MISTAKES = {
     "all inputs where none is left": (
         '"star.*"',
         '"star.*", "gyros.*"',
-        "unconnected (line 19): gyros.*: all inputs of gyros are connected or named; remove it",
+        "unconnected (line 19): gyros.*: all inputs of gyros are connected or named; remove this entry",
     ),
     "a parameter with a typo": (SET, SET.replace("initial", "inital"), "set.satellite.inital_quaternion: no parameter"),
-    "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4; give one for each element"),
-    "a value of another type": (SET, SET.replace("0.99", "true"), "True is not of type Real; give another, or use"),
+    "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4; give one value for each element"),
+    "a value of another type": (SET, SET.replace("0.99", "true"), "True is not of type Real; give a value of this"),
     "a value of no kind": (SET, SET.replace("0.99", '"x"'), "'x' is neither a number nor true or false"),
     "rows of another matrix": (
         SET,

@@ -159,7 +159,7 @@ def test_the_page_of_a_block_fits_a_telephone(browser, adder, tmp_path):
         ("adder.toml", b"gain = 3", b"gain = true", "adder.toml: parameters.gain: True is not a finite float or int"),
         ("adder.toml", b"gain = 3", b"gain = inf", "adder.toml: parameters.gain: inf is not a finite float or int"),
         ("adder.toml", b"gain = 3", b"gain = {}", "adder.toml: parameters.gain: {} is not a finite float or int"),
-        ("adder.csv", b"0.25,", b"0.75,", "adder.csv: column time: a time is not finite or decreases"),
+        ("adder.csv", b"0.25,", b"0.75,", "adder.csv: row 3, time"),
         ("adder.csv", b"u,flag", b"u,u", "adder.csv: line 1: two columns of the same name"),
         ("adder.csv", CSV[CSV.index(b"0.0") :], b"", "adder.csv: not a table of numbers: no rows"),
         ("adder.csv", CSV, b"", "adder.csv: not a table of numbers"),

@@ -117,7 +117,7 @@ def test_a_missing_file(tmp_path, files, capsys):
     lines = refused(tmp_path, {name: text for name, text in files.items() if name != OUTPUTS}, capsys)
     assert lines[0] == f"{OUTPUTS}: missing, though SHA256SUMS lists it"
     assert "outputs: " in lines[1]
-    assert "missing, though an experiment names it; export the file again" in lines[1]
+    assert "missing, although an experiment names it; export the file again" in lines[1]
     lines = refused(tmp_path, {name: text for name, text in files.items() if name != "sources/kernel_math.h"}, capsys)
     assert lines == ["sources/kernel_math.h: missing, though SHA256SUMS lists it"]
 
@@ -200,7 +200,7 @@ def test_without_a_manifest_that_is_one(tmp_path, files, capsys, manifest, messa
     ("name", "content", "status", "message"),
     [
         (OUTPUTS, b"", 1, "not a table"),
-        (OUTPUTS, b"time,a\n1.0,2.0\n0.5,1.0\n", 1, "times that are not finite, or fall"),
+        (OUTPUTS, b"time,a\n1.0,2.0\n0.5,1.0\n", 1, "0.5 s in row 2 is before the time of the preceding row"),
         (OUTPUTS, b"t,a\n1.0,2.0\n", 1, "time: no such column"),
         (OUTPUTS, b"time,nothing\n0.0,2.0\n", 1, "column nothing: no such variable"),
         (f"{FOLDER}/check.ssv", b"<a/>", 1, "not valid SSP"),

@@ -114,7 +114,9 @@ def test_exported_by_name_and_flown(here, capsys, refusal):
     assert main(["export", "my_table"]) == 0
     assert perilune.simulate("build/fmus/python/my_table.fmu", **fly)["my_table.y"][-1] == 10.0
     (here / "third.py").write_text("class MyTable:\n    pass\n")
-    assert "my_table: defined in other.py, third.py; give the file" in refusal(["export", "my_table"])
+    assert "my_table: defined in other.py, third.py; give the path of one of these files" in refusal(
+        ["export", "my_table"]
+    )
 
 
 @pytest.mark.parametrize("changed", ["net.npz", "helper.py", "constants.py"])
@@ -192,7 +194,9 @@ def test_sources_in_other_encodings(tmp_path, head, encoding):
 @pytest.mark.parametrize("name", ["my_table", "my_table.py"])
 def test_a_platform_for_python_alone_is_refused(here, capsys, name):
     assert main(["export", name, "--platform", local_platform()]) == 2
-    expected = f"perilune: --platform: {local_platform()}: my_table: needs Python and has no native form; leave it out"
+    expected = (
+        f"perilune: --platform: {local_platform()}: my_table: needs Python and has no native form; leave out --platform"
+    )
     assert capsys.readouterr().err.strip() == expected
     assert not (here / "build").exists()
 

@@ -18,4 +18,6 @@ def test_a_law_that_ignores_a_frozen_plan_is_named(capsys):
     (line,) = captured.err.splitlines()
     assert "point time_to_go_100, guidance (network_operator_guidance): guidance.frozen_time_to_go is 100, " in line
     assert "guidance.time_to_go is " in line
-    assert line.endswith("choose an FMU that holds its plan (a law in Python: by planned_time), or leave it at 0")
+    assert line.endswith(
+        "choose an FMU that holds its plan (a law in Python: by planned_time), or leave the parameter at 0"
+    )

@@ -87,13 +87,13 @@ WRONG = {
     "negative limit": ('<Limits phase_margin_deg="-30"/>', "Limits", "phase_margin_deg '-30' is not a positive number"),
     "point without a name": ('<Point time="1"/>', "Point", "no name"),
     "point with an empty name": ('<Point name=" " time="1"/>', "Point", "no name"),
-    "point without a time": ('<Point name="p"/>', "Point", "neither a time nor a signal"),
-    "point with both": ('<Point name="p" time="1" signal="a.b" falls_to="1"/>', "Point", "or both"),
+    "point without a time": ('<Point name="p"/>', "Point", "needs either a time, or a signal"),
+    "point with both": ('<Point name="p" time="1" signal="a.b" falls_to="1"/>', "Point", "give one of the two"),
     "point with half a signal": ('<Point name="p" signal="a.b"/>', "Point", "falls_to"),
     "time that is no number": ('<Point name="p" time="soon"/>', "Point", "time 'soon' is not a number"),
     "time that is not finite": ('<Point name="p" time="inf"/>', "Point", "time 'inf' is not a number"),
     "unknown attribute of a point": ('<Point name="p" tine="1" time="1"/>', "Point", "unknown attribute tine"),
-    "a point's name twice": ('<Point name="hold" time="1"/>', "Point", "the name hold is taken"),
+    "a point's name twice": ('<Point name="hold" time="1"/>', "Point", "the name hold is there twice"),
     "unknown part of a point": ('<Point name="p" time="1"><Let/></Point>', "Let", "unknown element"),
     "use without an fmu": ('<Point name="p" time="1"><Use component="c"/></Point>', "Use", "no fmu"),
     "set twice": (
@@ -109,9 +109,13 @@ WRONG = {
     "point that ends before it is there": (
         '<Point name="p" time="20" until="10"/>',
         "Point",
-        "it lasts until 10 s but is at 20 s",
+        "until 10 s is not after time 20 s",
     ),
-    "point that lasts no time": ('<Point name="p" time="20" until="20"/>', "Point", "it lasts until 20 s"),
+    "point that lasts no time": (
+        '<Point name="p" time="20" until="20"/>',
+        "Point",
+        "until 20 s is not after time 20 s",
+    ),
     "set without a value": ('<Point name="p" time="1"><Set name="c.p"/></Point>', "Set", "no value"),
     "parameter set without a source": ('<Point name="p" time="1"><ParameterSet/></Point>', "ParameterSet", "no source"),
     "loop without a cut": ('<Loop name="l" points="hold"/>', "Loop", "no cut"),
@@ -121,22 +125,22 @@ WRONG = {
     "direction's rate without the time ahead": (
         '<Loop name="l" cut="a.b" direction="a.d" direction_rate="a.r" points="hold"/>',
         "Loop",
-        "direction_rate and ahead come together",
+        "direction_rate and ahead need each other",
     ),
     "time ahead without a direction's rate": (
         '<Loop name="l" cut="a.b" direction="a.d" ahead="0.1" points="hold"/>',
         "Loop",
-        "direction_rate and ahead come together",
+        "direction_rate and ahead need each other",
     ),
     "direction's rate without a direction": (
         '<Loop name="l" cut="a.b" direction_rate="a.r" ahead="0.1" points="hold"/>',
         "Loop",
-        "direction_rate and ahead come together, with a direction",
+        "direction_rate and ahead need each other, and a direction",
     ),
     "unknown attribute of a loop": ('<Loop name="l" cut="a.b" points="hold" perod="1"/>', "Loop", "attribute perod"),
     "period of 0": ('<Loop name="l" cut="a.b" points="hold" period="0"/>', "Loop", "period '0' is not a positive"),
     "negative amplitude": ('<Loop name="l" cut="a.b" points="hold" amplitude="-1"/>', "Loop", "amplitude '-1' is not"),
-    "a loop's name twice": ('<Loop name="one" cut="a.b" points="hold"/>', "Loop", "the name one is taken"),
+    "a loop's name twice": ('<Loop name="one" cut="a.b" points="hold"/>', "Loop", "the name one is there twice"),
     "unknown part of a loop": ('<Loop name="l" cut="a.b" points="hold"><Use/></Loop>', "Use", "unknown element"),
     "sweep of an unknown loop": (
         '<Sweep name="s" loop="two" point="hold" parameter="c.p" low="1" high="2"/>',
@@ -215,7 +219,7 @@ def test_the_annotation_holds_just_one_declaration():
     [
         ('time="0"', 'cut="plant.nothing"', r"loop one: no connector plant\.nothing"),
         ('time="0"', 'cut="plant.u" returned="plant.nothing"', r"loop one: no connector plant\.nothing"),
-        ('time="0"', 'cut="plant.u" period="0.3"', "loop one: period 0.3 s is no whole number"),
+        ('time="0"', 'cut="plant.u" period="0.3"', "loop one: period 0.3 s is not a whole number"),
         ('signal="plant.nothing" falls_to="1"', 'cut="plant.u"', r"point hold: no signal plant\.nothing"),
     ],
 )

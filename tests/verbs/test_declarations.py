@@ -102,5 +102,5 @@ def test_what_is_public_says_what_it_is(name):
 
 def test_one_name_where_a_list_is_meant():
     for keyword in ("parameters", "feedthrough", "no_feedthrough"):
-        with pytest.raises(perilune.InputError, match=rf'one name where a list is meant; give {keyword}=\["x"\]'):
+        with pytest.raises(perilune.InputError, match=rf'a single name, but a list is needed; give {keyword}=\["x"\]'):
             perilune.simulate("lunar_terminal_guidance", **{keyword: "x"})

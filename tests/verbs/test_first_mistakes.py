@@ -180,7 +180,7 @@ CASES = {
     "--use without =": ([*RUN, "--use", "astar_guidance"], ["--use", "SLOT=FMU", "use this form"]),
     "a slot twice": (
         [*RUN, "--use", "guidance=astar_guidance", "--use", "guidance=analytic_guidance"],
-        ["--use", "guidance is given twice", "give it once"],
+        ["--use", "guidance is given twice", "give each name once"],
     ),
     "a parameter with a typo": (
         [*RUN, "--set", "guidance.gravty=1.6"],
@@ -345,13 +345,13 @@ CASES = {
     "an element below its minimum": (["export", "below.py"], ["Mine.w", "starts at -1.0", "below its minimum 0.0"]),
     "a slot's input as a parameter": (
         ["export", "other_causality.py"],
-        ["Mine.mass", "a parameter here, of causality input", "give it another name"],
+        ["Mine.mass", "a parameter here, of causality input", "give the variable another name"],
     ),
     "two classes of one name": (["export", "twice.py"], ["lines 6 and", "two classes Mine", "rename one"]),
     "two classes of one FMU": (["export", "two_cases.py"], ["AxisMine and Axis_Mine", "axis_mine", "rename one"]),
     "a file with a typo": (["export", "no_blocks.py"], ["no_blocks.py: no such file", ".py file", "no_block.py"]),
     "something to export that is nothing near": (["export", "f.html"], ["f.html", "and", "more"]),
-    "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
+    "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write the unit in m, kg"]),
     "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
     "something to export with a typo": (["export", "astar_guidence"], ["astar_guidence", "astar_guidance"]),
     "a block over a file": (["new", "block", "here"], ["here.py", "not overwritten", "another name"]),

@@ -130,7 +130,7 @@ def test_not_enough_on_board(capsys):
 def test_no_programme(capsys):
     assert main(["design", "transfer", "--distance", "10000", "--descent", "500"]) == 1
     error = capsys.readouterr().err
-    assert error.startswith("perilune: no simplified programme goes 10000 m along in 500 m of descent")
+    assert error.startswith("perilune: no simplified programme covers 10000 m in 500 m of descent")
     assert error.count("\n") == 1
 
 
@@ -143,16 +143,22 @@ def test_no_programme(capsys):
         (["transfer", "--distance", "-1"], "--distance: -1: below 0"),
         (["transfer", "--bound", "--intervals", "5"], "--intervals: 5: below 10"),
         (["transfer", "--intervals", "50"], "--intervals: 50: without effect unless --optimum or --bound is given"),
-        (["transfer", "--adjoint"], "--adjoint: without effect unless --optimum is given; give it, too"),
-        (["transfer", "--distances", "50"], "--distances: without effect unless --free-fall is given; give it, too"),
+        (["transfer", "--adjoint"], "--adjoint: without effect unless --optimum is given; also give --optimum"),
+        (
+            ["transfer", "--distances", "50"],
+            "--distances: without effect unless --free-fall is given; also give --free-fall",
+        ),
         (["transfer", "--turn-begun", "0.5"], "--turn-begun: without effect unless --free-fall is given"),
         (["transfer", "--free-fall", "--turn-begun", "1"], "--turn-begun: 1: above 0.9"),
         (["transfer", "--free-fall", "--distances", "50,-1"], "--distances: -1: below 0"),
-        (["transfer", "--free-fall", "--distance", "0"], "--free-fall: nothing turns on the way straight down, 0 m"),
-        (["transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 do not carry the mass"),
-        (["transfer", "--minimum-thrust", "1000"], "--minimum-thrust: 1000 N: 1.667 m/s2 carry the mass"),
+        (["transfer", "--free-fall", "--distance", "0"], "--free-fall: a vertical descent, over 0 m, has no turn"),
+        (["transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 at full thrust do not exceed"),
+        (
+            ["transfer", "--minimum-thrust", "1000"],
+            "--minimum-thrust: 1000 N: 1.667 m/s2 at this thrust exceed gravity",
+        ),
         (["transfer", "--minimum-thrust", "5000"], "--minimum-thrust: 5000: not below the largest thrust"),
-        (["transfer", "--minimum-thrust", "0"], "--minimum-thrust: 0 N: the programme's engine never stops"),
+        (["transfer", "--minimum-thrust", "0"], "--minimum-thrust: 0 N: the programme never shuts the engine down"),
         (["transfer", "--minimum-throttle", "0.95", "--margins"], "--minimum-thrust: 4471.83: not below the"),
         (["transfer", "--dry-mass", "600"], "--dry-mass: 600: not below the mass, 600 kg"),
         (["bound", "--speed", "inf"], "--speed: 'inf': not a finite number"),

@@ -143,7 +143,10 @@ class Campaign:
         for slot, fmus in self.compare.items():
             if not fmus or len(set(fmus)) != len(fmus) or "" in fmus:
                 raise InputError(
-                    self.file, f"compare {slot}", f"{', '.join(fmus)}: empty or repeated", "name each FMU once"
+                    self.file,
+                    f"compare {slot}",
+                    f"{', '.join(fmus)}: a name is empty or repeated",
+                    "name each FMU once",
                 )
         if self.seed < 0:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")

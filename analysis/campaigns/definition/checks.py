@@ -123,13 +123,19 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
         if slot in plan.campaign.compare:
             raise InputError("`use`", slot, "the campaign compares FMUs in this slot", f"give `compare` {slot}=A,B")
         if any(slot in variant.use for variant in variants):
-            raise InputError("`use`", slot, "the campaign's configurations choose this FMU", "change the campaign")
+            raise InputError(
+                "`use`", slot, "the campaign's configurations choose this FMU", "change these configurations"
+            )
     for name in plan.options.set:
         if any(name in variant.settings for variant in variants):
-            raise InputError("`set`", name, "the campaign's configurations set it", "change the campaign")
+            raise InputError(
+                "`set`", name, "the campaign's configurations set this variable", "change these configurations"
+            )
         sampled = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.input_names())
         if sampled or name.endswith((".seed", ".stream")):
-            raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
+            raise InputError(
+                "`set`", name, "the campaign draws this variable in every trial", "remove the draw from the campaign"
+            )
 
 
 def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
@@ -160,7 +166,9 @@ def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.nd
     place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
         remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
-        raise InputError(place, name, f"drawn values are not whole numbers, but it is of type {variable.type}", remedy)
+        raise InputError(
+            place, name, f"the drawn values are not whole numbers, but the variable is of type {variable.type}", remedy
+        )
     _, low, high = variable
     outside = np.flatnonzero((values < low) | (values > high))
     if outside.size:

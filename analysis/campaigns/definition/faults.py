@@ -60,7 +60,7 @@ def read_fault(name: str, table: TomlTable) -> CampaignFault:
     table.only(KEYS)
     kind = table.get("kind", choice_of(*KINDS))
     if kind == "freeze" and "value" in table.content:
-        raise table.error("value", "a freeze has no value", "omit it: a freeze holds the current value")
+        raise table.error("value", "a freeze has no value", "omit the value: a freeze holds the current value")
     return CampaignFault(
         name=name,
         file=table.file,
@@ -82,7 +82,9 @@ def _formula(table: TomlTable, key: str, value: object) -> Expression:
     if isinstance(value, str):
         return expression(table, key, value)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise table.error(key, f"{value!r} is not a finite number", 'write a number, or an expression as "t_fail + 10"')
+        raise table.error(
+            key, f"{value!r} is not a finite number", 'write a number, or an expression such as "t_fail + 10"'
+        )
     return expression(table, key, repr(value))
 
 

@@ -103,7 +103,7 @@ def _metric(name: str, table: TomlTable) -> Metric:
     reduction = table.get("reduction", choice_of(*REDUCTIONS))
     for key, owner in REDUCTION_OF.items():
         if reduction != owner and key in table.content:
-            raise table.error(key, f"not used by the reduction {reduction!r}", f"drop it, or use {owner}")
+            raise table.error(key, f"not used by the reduction {reduction!r}", f"remove {key}, or use {owner}")
     return Metric(
         name=name,
         expression=table.get("expression", expression),
@@ -146,7 +146,9 @@ def _record(table: TomlTable) -> TrialRecord:
     if trials is not None and trials < 1:
         raise table.error("trials", f"{trials} trial(s)", "give 1 or more: the first n trials are sampled")
     if trials is not None and every is None:
-        raise table.error("trials", "nothing is sampled", "give every = n and signals = [...] too, or drop trials")
+        raise table.error(
+            "trials", "nothing is sampled", "give every = n and signals = [...] as well, or remove trials"
+        )
     traces = table.get("traces", choice_of(*TRACES), "none")
     return TrialRecord(table.get("final", names, nothing), every, signals, traces, trials)
 
@@ -185,7 +187,9 @@ def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatte
     if circle is not None and circle <= 0.0:
         raise table.error("circle", f"{circle:g} is not a radius", "give a positive number")
     if circle is not None and units[x] != units[y]:
-        raise table.error("circle", f"{x} is in {units[x]}, {y} in {units[y]}", "drop it, or give both one unit")
+        raise table.error(
+            "circle", f"{x} is in {units[x]}, {y} in {units[y]}", "remove circle, or choose metrics in one unit"
+        )
     return Scatter(name, x, y, circle, table.get("title", text, ""))
 
 
@@ -193,7 +197,7 @@ def parse_campaign(table: TomlTable) -> Campaign:
     """Return the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then simulate the law in a campaign without this table"
-        raise table.error(SYNTHESIS, "a search, not a batch", remedy)
+        raise table.error(SYNTHESIS, "declares a search, which a batch cannot run", remedy)
     table.only(TABLE)
     draws = _draws(table.table("draw"))
     derived = _read_derived(table.table("derive"), draws)

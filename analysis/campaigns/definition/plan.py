@@ -273,11 +273,14 @@ def _check_changes(trials: int | None, draws: Path | None, sweeps: Mapping[str, 
         raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
     if draws is not None and trials is not None:
         raise InputError(
-            "`trials`", str(trials), "the file of `draws` determines the number of trials", "leave one of the two out"
+            "`trials`",
+            str(trials),
+            "the file of `draws` determines the number of trials",
+            "leave out `trials` or `draws`",
         )
     if draws is not None and sweeps:
         raise InputError(
-            "`set`", "=".join(next(iter(sweeps.items()))), "a sweep together with `draws`", "leave one out"
+            "`set`", "=".join(next(iter(sweeps.items()))), "a sweep cannot be combined with `draws`", "give one value"
         )
 
 

@@ -45,7 +45,7 @@ def read_requirements(table: TomlTable, metrics: Collection[str], draws: Iterabl
     for draw in draws:
         if table.content and isinstance(draw.distribution, Design):
             problem = f"{draw.name} is drawn by {draw.distribution.keyword}, and verdicts need independent trials"
-            remedy = f"draw it by {draw.distribution.alternative}, or drop the requirements"
+            remedy = f"draw it by {draw.distribution.alternative}, or remove the requirements"
             raise table.error("", problem, remedy)
     return tuple(_requirement(name, each, metrics) for name, each in table.subtables())
 

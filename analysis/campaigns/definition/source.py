@@ -111,7 +111,7 @@ def _read_source(
         inherited, other = _find(name, label, archive)
         if other in (*chain, label):
             path = " -> ".join([*chain, label, other])
-            raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
+            raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these references")
         CAMPAIGN_FILES.check(len(files), label, EXTENDS)
         files.append(other)
         extended.append(_read_source(inherited, other, archive, (*chain, label), files))
@@ -177,7 +177,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
     except ValueError as error:  # also for integers of many thousand digits
         if isinstance(error, InputError):
             raise
-        raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
     return content
 
 

@@ -50,10 +50,12 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
             )
         if name in sampled:
             problem = "the campaign draws it in every trial"
-            raise InputError(SINGLE, f"{name}={text}", problem, "leave it out, or change the campaign")
+            raise InputError(
+                SINGLE, f"{name}={text}", problem, "leave out this sweep, or remove the draw from the campaign"
+            )
         if campaign.requirements:
             problem = "the campaign has requirements, whose verdicts need independent trials"
-            raise InputError(SINGLE, f"{name}={text}", problem, "sweep a campaign without them")
+            raise InputError(SINGLE, f"{name}={text}", problem, "sweep a campaign without requirements")
     swept = replace(
         campaign,
         draws=(*campaign.draws, *draws),
@@ -83,7 +85,7 @@ def _values(name: str, text: str) -> tuple[float, ...]:
         raise InputError(SINGLE, place, "not a sweep", "write low:high:step with three numbers")
     low, high, step = numbers
     if not step > 0.0:
-        raise InputError(SINGLE, place, f"the step {step:g} is not positive", "write low:high:step, as in 1:5:0.5")
+        raise InputError(SINGLE, place, f"the step {step:g} is not positive", "write low:high:step, such as 1:5:0.5")
     if not high > low:
         problem = f"high = {high:g} is not above low = {low:g}"
         raise InputError(SINGLE, place, problem, "write low:high:step with low < high, or one value")

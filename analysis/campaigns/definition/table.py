@@ -123,7 +123,7 @@ def bound(table: TomlTable, key: str, value: object) -> float:
             raise table.error(key, f"{value!r} is not constant", "use numbers, pi and e only, or [derive]")
         value = formula.evaluate({})
     if isinstance(value, bool) or not isinstance(value, int | float) or math.isnan(value):
-        raise table.error(key, f"{value!r} is not a number", 'write a number, or a constant expression as "pi/4"')
+        raise table.error(key, f"{value!r} is not a number", 'write a number, or a constant expression such as "pi/4"')
     return float(value)
 
 

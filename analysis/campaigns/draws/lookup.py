@@ -23,7 +23,7 @@ from .declared import Formula
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # hexadecimal digits of SHA-256
 COMMAND, INPUT = "# made by: ", "# input: "
-WRITE = "write it again; perilune design bounds writes the table of [lookup.bound]"
+WRITE = "write the table again; perilune design bounds writes that of [lookup.bound]"
 
 InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
 
@@ -130,7 +130,9 @@ class Lookup:
         table = read_lookup_table(self.content, self.label)
         if self.column not in table.columns:
             remedy = suggestion(self.column, table.columns)
-            raise InputError(self.origin, f"{self.element}.column", f"{self.label} has no {self.column!r}", remedy)
+            raise InputError(
+                self.origin, f"{self.element}.column", f"{self.label} has no column {self.column!r}", remedy
+            )
         return table
 
     def numbers_of(self, trials: range) -> np.ndarray:

@@ -112,7 +112,7 @@ def read_supplied(path: Path, campaign: CampaignDraws) -> SuppliedDraws:
     if not table.num_rows:
         raise InputError(path, "", "no row", "give one row or more")
     if not sampled and not stream_columns:
-        raise InputError(path, "", f"{campaign.file} draws nothing", "leave the file out")
+        raise InputError(path, "", f"{campaign.file} draws nothing", "leave out `draws`")
     columns = {name: _numbers(path, table, name) for name in (*sampled, *stream_columns)}
     for name in stream_columns:
         if np.any((columns[name] < 0.0) | (columns[name] > TRIALS.limit) | (columns[name] != np.round(columns[name]))):
@@ -135,7 +135,7 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) 
             remedy = suggestion(name, [*known, STREAMS])
             raise InputError(path, name, f"{campaign.file} neither draws nor derives this value", remedy)
         if count > 1:
-            raise InputError(path, name, "two columns of this name", "leave one of them out")
+            raise InputError(path, name, "two columns of this name", "remove one of the two")
         if not any(is_of(schema.field(name).type) for is_of in numbers):
             raise InputError(path, name, "not a column of numbers", "give a number in every row")
 

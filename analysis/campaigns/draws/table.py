@@ -76,7 +76,7 @@ def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
     """
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
     if trials > TABLE_TRIALS.limit:
-        problem = f"{trials} trials, of {TABLE_TRIALS.limit:.0f} at most that are drawn as one table"
+        problem = f"{trials} trials, but at most {TABLE_TRIALS.limit:.0f} can be drawn as one table"
         raise InputError(
             file, "trials", problem, 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
         )

@@ -141,7 +141,7 @@ def open_campaign(
     not this process.
     """
     if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
-        problem = f"{elsewhere} choose themselves whether to compile steps, and have no such option"
+        problem = f"{elsewhere} decide for themselves whether to compile steps"
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     count = worker_count(workers)
     systems = check_plan(plan)

@@ -62,7 +62,7 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
         for name in names:
             if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
                 problem = f"{plan.campaign.trials} trials draw other values of {name} in the first {held.trials}"
-                raise InputError(folder / DRAWS, name, problem, "write them to another `output`")
+                raise InputError(folder / DRAWS, name, problem, "give another `output`")
         first += part.trials
         if first >= held.trials:
             return

@@ -106,7 +106,7 @@ def _check_trial(file: str | Path, trial: int, trials: int) -> None:
 def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
     variants = {variant.name: variant for variant in plan.campaign.variants()}
     if name is None and len(variants) > 1:
-        problem = f"its campaign compares {len(variants)}"
+        problem = f"the campaign has {len(variants)} configurations, and none is selected"
         raise InputError(file, "`configuration`", problem, f"give one of {', '.join(variants)}")
     if name is not None and name not in variants:
         raise InputError(file, f"`configuration` {name}", "no such configuration", suggestion(name, variants))

@@ -36,7 +36,7 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
         raise InputError("`engine`", engine, "unknown", suggestion(engine, ENGINES))
     if engine == "threads" and foreign:
         problem = "FMUs not built by Perilune run in separate processes"
-        raise InputError("`engine`", engine, problem, "use processes, or `in_process` where you trust them")
+        raise InputError("`engine`", engine, problem, "use processes, or give `in_process` if you trust these FMUs")
     if engine == "threads" and not can:
         problem = "Python FMUs, and FMUs limited to one instance per process, cannot run in threads"
         raise InputError("`engine`", engine, problem, "use processes, or native FMUs")

@@ -147,7 +147,9 @@ def unreadable(path: Path, error: Exception) -> InputError:
     """Return the error for a damaged file."""
     reason = str(error).split(": ")[-1] or type(error).__name__
     problem = f"cannot be read as parquet ({' '.join(reason.split())})"
-    return InputError(path, "", problem, "remove it: the batch's command with `resume` simulates its trials again")
+    return InputError(
+        path, "", problem, "remove this file: the batch's command with `resume` simulates its trials again"
+    )
 
 
 def read_metadata(schema: pyarrow.Schema) -> object:

@@ -34,7 +34,7 @@ def _lock(folder: Path, alone: bool) -> Iterator[None]:
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / FILE
     if os.path.lexists(path):
-        check_regular(path, "remove it")
+        check_regular(path, "remove this file")
     with ExitStack() as entered:
         try:
             lock = ReadWriteLock(path, blocking=False, is_singleton=False)
@@ -46,5 +46,5 @@ def _lock(folder: Path, alone: bool) -> Iterator[None]:
         except sqlite3.OperationalError as error:
             warnings.warn(f"{folder} cannot be locked ({error}): do not write to it from another process", stacklevel=4)
         except (OSError, ValueError, sqlite3.Error) as error:
-            raise InputError(path, "", f"cannot be locked: {error}", "remove it") from error
+            raise InputError(path, "", f"cannot be locked: {error}", "remove this file") from error
         yield

@@ -21,7 +21,7 @@ from .files import check_folders
 
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder next to it
-SAME_VERSION = "resume with the version of perilune that wrote it"
+SAME_VERSION = "resume with the version of perilune that wrote this file"
 WRITE = "give a folder that perilune batch or prepare wrote"
 
 
@@ -150,7 +150,7 @@ def read_manifest(folder: Path) -> CampaignManifest:
         raise InputError(path, "", f"not JSON: {error}", WRITE) from error
     unknown = sorted(set(document) - {field.name for field in fields(CampaignManifest)})
     if unknown:
-        raise InputError(path, unknown[0], "not as this version of perilune writes it", SAME_VERSION)
+        raise InputError(path, unknown[0], "unknown to this version of perilune", SAME_VERSION)
     _check_manifest(manifest, path)
     return manifest
 
@@ -163,7 +163,7 @@ def _check_manifest(manifest: CampaignManifest, path: Path) -> None:
             raise InputError(path, name, f"{number}, not a positive number", SAME_VERSION)
     for name in manifest.names():
         if not NAMED.fullmatch(name) or "/" in name or "\\" in name:
-            raise InputError(path, name, "not a SHA-256", SAME_VERSION)
+            raise InputError(path, name, "not a SHA-256 hash", SAME_VERSION)
     fmu = manifest.system["fmu"]
     if fmu is not None and fmu not in manifest.system["files"]:
         raise InputError(path, "system.fmu", f"no file {fmu} of the system", SAME_VERSION)

@@ -47,9 +47,13 @@ def parse_shards(texts: Iterable[str]) -> list[int]:
     for text in texts:
         first, dash, last = text.partition("-")
         if len(text) > LONGEST:
-            raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
+            raise InputError(
+                "shard", text, "neither a shard's number nor a range", "give a number such as 3, or a range such as 0-7"
+            )
         if not first.isdecimal() or (dash and not last.isdecimal()) or int(last or first) < int(first):
-            raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
+            raise InputError(
+                "shard", text, "neither a shard's number nor a range", "give a number such as 3, or a range such as 0-7"
+            )
         SHARDS.check(int(last or first), "shard", text)
         numbers |= set(range(int(first), int(last or first) + 1))
     return sorted(numbers)

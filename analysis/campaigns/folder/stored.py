@@ -33,7 +33,7 @@ from .manifest import WRITE
 from .provenance import CampaignProvenance
 from .summary import SummaryDocument, read_metrics, read_summary
 
-RESUME = "complete it: repeat the batch's command with `resume`"
+RESUME = "complete the batch: repeat its command with `resume`"
 
 
 @dataclass(frozen=True)

@@ -70,4 +70,4 @@ def read_metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
             for name, fact in document["metrics"].items()
         )
     except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(path, "metrics", "not as perilune batch writes them", NEW_FOLDER) from error
+        raise InputError(path, "metrics", "not in the form that perilune batch writes", NEW_FOLDER) from error

@@ -97,10 +97,15 @@ def output_feedback_upper(
         raise InputError("modal", "starts", f"{starts} starts", "give 1 or more")
     n, m, p = len(state), inputs.shape[1], len(outputs)
     if m * p < n:
-        problem = f"n, m, p = {n}, {m}, {p}: F has m p = {m * p} elements for n poles"
+        problem = f"n, m, p = {n}, {m}, {p}: F has m p = {m * p} elements, too few for n poles"
         raise PlacementError(ROUTINE, Reason.CLASS, problem, float(m * p), "measure more outputs, or use an observer")
     if m == n or p == n:
-        raise InputError("modal", "C" if p == n else "B", "there are no upper levels", "use output_feedback")
+        raise InputError(
+            "modal",
+            "C" if p == n else "B",
+            "measures every state" if p == n else "drives every state",
+            "use output_feedback",
+        )
     high, low = _distribute(spectrum, n - m, upper)
     family = UpperLevels(ZerothLevel(state, inputs, outputs), high)
     random = np.random.default_rng(seed)
@@ -118,7 +123,7 @@ def _distribute(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> tuple
     if split is not None:
         return split
     problem = f"{len(spectrum.pairs)} conjugate pairs do not leave {size} poles for the upper levels"
-    remedy = "give (A', C', B') and transpose F, or two real poles for a pair"
+    remedy = "give (A', C', B') and transpose F, or two real poles in place of a pair"
     raise PlacementError(ROUTINE, Reason.SPREAD, problem, float(len(spectrum.pairs)), remedy)
 
 

@@ -46,7 +46,7 @@ def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
     >>> perilune.epoch("2026-03-20T18:00:00Z")
     827301669.184
     """
-    remedy = "write it as 2026-03-20T18:00:00Z"
+    remedy = "write the time as 2026-03-20T18:00:00Z"
     try:
         time = datetime.fromisoformat(utc)
     except (TypeError, ValueError):
@@ -58,7 +58,9 @@ def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
             raise InputError("`utc`", repr(utc), "before 2017", "give `leap_seconds`, TAI - UTC in s at that time")
         leap_seconds = LEAP_SECONDS
     if isinstance(leap_seconds, bool) or not isinstance(leap_seconds, int):
-        raise InputError("`leap_seconds`", repr(leap_seconds), "not a whole number", f"give one, as {LEAP_SECONDS}")
+        raise InputError(
+            "`leap_seconds`", repr(leap_seconds), "not a whole number", f"give a whole number, such as {LEAP_SECONDS}"
+        )
     return (time - J2000 + timedelta(seconds=leap_seconds) + TT_MINUS_TAI) / timedelta(seconds=1)
 
 
@@ -119,11 +121,13 @@ def orbit(
     parameter = semi_major_axis * (1.0 - eccentricity) * (1.0 + eccentricity)  # semi-latus rectum
     if not parameter > 0.0:
         sign = "above 0, as an ellipse needs" if eccentricity < 1.0 else "below 0, as a hyperbola needs"
-        raise InputError("`semi_major_axis`", repr(semi_major_axis), f"not {sign}", "change it or `eccentricity`")
+        raise InputError(
+            "`semi_major_axis`", repr(semi_major_axis), f"not {sign}", "change `semi_major_axis` or `eccentricity`"
+        )
     cosine, sine = math.cos(true_anomaly), math.sin(true_anomaly)
     if not 1.0 + eccentricity * cosine > 0.0:
         raise InputError(
-            "`true_anomaly`", repr(true_anomaly), "beyond the asymptote of the hyperbola", "give an angle nearer to 0"
+            "`true_anomaly`", repr(true_anomaly), "beyond the asymptote of the hyperbola", "give an angle closer to 0"
         )
     turn = _rotation(node, 2) @ _rotation(inclination, 0) @ _rotation(argument_of_perigee, 2)
     position = parameter / (1.0 + eccentricity * cosine) * np.array([cosine, sine, 0.0])

@@ -78,5 +78,9 @@ def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: PlaceOptions)
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise
         raise PlacementError(
-            "observer", Reason.NOT_OBSERVABLE, f"of (A', C') {error.problem}", error.number, "measure these states, too"
+            "observer",
+            Reason.NOT_OBSERVABLE,
+            f"of (A', C') {error.problem}",
+            error.number,
+            "measure these states as well",
         ) from None

@@ -77,7 +77,7 @@ def output_feedback(
         problem = (
             f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
         )
-        remedy = "use the other method, or two real poles for a pair"
+        remedy = "use the other method, or two real poles in place of a pair"
         raise PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return minimise_gain(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
@@ -117,7 +117,7 @@ def _check_class(states: int, inputs: int, outputs: int) -> None:
     sizes = f"n, m, p = {states}, {inputs}, {outputs}"
     for number, problem in (
         (inputs + outputs, f"m + p = {inputs + outputs} is less than n"),
-        (inputs * outputs, f"F has m p = {inputs * outputs} elements for n poles"),
+        (inputs * outputs, f"F has m p = {inputs * outputs} elements, too few for n poles"),
     ):
         if number < states:
             remedy = "measure more outputs, or use an observer"

@@ -138,7 +138,9 @@ def common_feedback(
     if any(len(state) != order for state in states) or order % size:
         raise InputError("modal", "plants", f"their sizes do not fit {size} inputs", "give n by n matrices, n = p m")
     if prescribed.shape != (order // size, size, size):
-        raise InputError("modal", "wanted", f"it is {prescribed.shape}", f"give {(order // size, size, size)}")
+        raise InputError(
+            "modal", "wanted", f"has shape {prescribed.shape}", f"give shape {(order // size, size, size)}"
+        )
     side_by_side = np.hstack(list(prescribed))
     free = np.isnan(side_by_side)
     stacks, powers, conditions = zip(*(row_stack(state, inputs) for state in states), strict=True)
@@ -160,7 +162,7 @@ def common_feedback(
         problem = (
             f"no F meets the prescription for all {len(states)} plants: a relative residual of {residual:.2g} remains"
         )
-        remedy = "prescribe less, or measure more outputs"
+        remedy = "prescribe fewer elements, or measure more outputs"
         raise PlacementError("common output feedback", Reason.RESIDUAL, problem, residual, remedy)
     coefficients = np.array([split(row, size) for row in closed_poles])
     loops = [

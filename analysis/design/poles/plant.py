@@ -14,7 +14,7 @@ def state_matrix(value: ArrayLike) -> np.ndarray:
     """Return A (n, n). Raises InputError."""
     matrix = real_matrix("A", value)
     if matrix.shape[0] != matrix.shape[1] or not matrix.size:
-        raise InputError("modal", "A", f"it is {_size(matrix)}", "give a square matrix, n by n")
+        raise InputError("modal", "A", f"is {_size(matrix)}", "give a square matrix, n by n")
     return matrix
 
 
@@ -22,7 +22,7 @@ def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """Return B (n, m). Raises InputError."""
     matrix = real_matrix("B", value)
     if matrix.shape[0] != states or not matrix.size:
-        raise InputError("modal", "B", f"it is {_size(matrix)}, and A has {states} states", "give one row per state")
+        raise InputError("modal", "B", f"is {_size(matrix)}, and A has {states} states", "give one row per state")
     return matrix
 
 
@@ -30,9 +30,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """Return C (p, n). Raises InputError."""
     matrix = real_matrix("C", value)
     if matrix.shape[1] != states or not matrix.size:
-        raise InputError(
-            "modal", "C", f"it is {_size(matrix)} where A has {states} states", "give one column per state"
-        )
+        raise InputError("modal", "C", f"is {_size(matrix)} where A has {states} states", "give one column per state")
     return matrix
 
 
@@ -41,15 +39,15 @@ def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[
     try:
         matrix = np.asarray(value)
     except ValueError:  # rows of different lengths
-        raise InputError("modal", name, "its rows differ in length", "give a matrix") from None
+        raise InputError("modal", name, "has rows of different length", "give a matrix") from None
     if matrix.dtype.kind not in "biuf":
-        raise InputError("modal", name, f"its elements are {matrix.dtype}", "give real numbers")
+        raise InputError("modal", name, f"has elements of type {matrix.dtype}", "give real numbers")
     if shape is None and matrix.ndim != 2:
-        raise InputError("modal", name, f"it has {matrix.ndim} dimensions", "give a matrix, a list of rows")
+        raise InputError("modal", name, f"has {matrix.ndim} dimensions", "give a matrix, a list of rows")
     if shape is not None and matrix.shape != shape:
-        raise InputError("modal", name, f"it is {_size(matrix)}", f"give {' by '.join(map(str, shape))} numbers")
+        raise InputError("modal", name, f"is {_size(matrix)}", f"give {' by '.join(map(str, shape))} numbers")
     if not np.all(np.isfinite(matrix)):
-        raise InputError("modal", name, "an element is not finite", "give finite numbers")
+        raise InputError("modal", name, "has an element that is not finite", "give finite numbers")
     return matrix.astype(float)
 
 

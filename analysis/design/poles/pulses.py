@@ -37,7 +37,7 @@ class PulsedPlant:
         """Return the plant of these arrays. Raises InputError."""
         state = state_matrix(a)
         if not 0.0 < period < np.inf:
-            raise InputError("modal", "period", f"it is {period:g} s", "give a time above 0")
+            raise InputError("modal", "period", f"is {period:g} s", "give a time above 0")
         return cls(state, input_matrix(b, len(state)), float(period))
 
     @cached_property
@@ -94,7 +94,7 @@ def pulsed_step(
     pulses = real_matrix("values", values, np.shape(lengths))
     ends = pulse_lengths(lengths, pulses.shape, period)
     if not longest > 0.0:
-        raise InputError("modal", "longest", f"it is {longest:g} s", "give a time above 0")
+        raise InputError("modal", "longest", f"is {longest:g} s", "give a time above 0")
     instants = np.unique([0.0, *ends, period])
     for begin, end in pairwise(instants):
         steps = max(1, int(np.ceil((end - begin) / longest)))

@@ -30,7 +30,12 @@ class Spectrum:
         if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
             raise InputError("modal", name, "not a list of finite numbers", "give real or complex numbers")
         if len(values) != size:
-            raise InputError("modal", name, f"{len(values)} poles", f"give {size}, each as often as it is repeated")
+            raise InputError(
+                "modal",
+                name,
+                f"{len(values)} poles",
+                f"give {size}, with each repeated pole listed as often as it occurs",
+            )
         conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []
         for pole in [complex(pole) for pole in values if pole.imag > 0.0]:
@@ -84,7 +89,9 @@ class Spectrum:
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
             if _remove_nearest(real if isinstance(pole, float) else pairs, pole) is None:
-                raise InputError("modal", "upper", f"{pole:g} is not one of the poles", "name some of the poles")
+                raise InputError(
+                    "modal", "upper", f"{pole:g} is not one of the poles", "choose the upper poles among the poles"
+                )
         return Spectrum(tuple(real), tuple(pairs))
 
     def distribute(self, sizes: Sequence[int]) -> list[Spectrum] | None:

@@ -43,7 +43,7 @@ def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (Non
         raise InputError("modal", name, "not a matrix of numbers and symbols", "give a list of rows") from None
     for size, required, unit in zip(matrix.shape, shape, ("rows", "columns"), strict=True):
         if required is not None and size != required:
-            raise InputError("modal", name, f"it has {size} {unit}", f"give {required}")
+            raise InputError("modal", name, f"has {size} {unit}", f"give {required}")
     return matrix
 
 

@@ -167,7 +167,12 @@ def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | 
 def _poles(required: Sequence[Any], states: int) -> list[Expression]:
     poles = [exact(pole) for pole in required]
     if len(poles) != states:
-        raise InputError("modal", "required", f"{len(poles)} poles", f"give {states}, each as often as it is repeated")
+        raise InputError(
+            "modal",
+            "required",
+            f"{len(poles)} poles",
+            f"give {states}, with each repeated pole listed as often as it occurs",
+        )
     if any(pole.is_real is False for pole in poles):
         remedy = "give matrices, [[a, b], [-b, a]] for a pair a +- i b"
         raise InputError("modal", "required", "a pole is not real", remedy)

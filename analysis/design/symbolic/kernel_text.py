@@ -21,7 +21,7 @@ def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
         if not each.isidentifier() or keyword.iskeyword(each):
             raise InputError("modal", f"the name {each!r}", "not a name in Python", "use letters, digits and _")
         if each in _RESERVED:
-            raise InputError("modal", f"the name {each!r}", "the function uses this name already", "rename it")
+            raise InputError("modal", f"the name {each!r}", "the function uses this name already", "rename the symbol")
     names = {name, *arguments}
     numbers = (symbol for symbol in sp.numbered_symbols("part_") if str(symbol) not in names)
     terms, (reduced,) = sp.cse([matrix], symbols=numbers, optimizations="basic")
@@ -76,7 +76,9 @@ def _power(printer: Any, power: Expression, rational: bool = False) -> str:
     """Return a power as a product or a root, in parentheses, so that it may be a divisor."""
     base, exponent = power.args
     if not (2 * exponent).is_Integer:
-        raise InputError("modal", "kernel", f"{power} is a power that kernels do not have", "give it a symbol")
+        raise InputError(
+            "modal", "kernel", f"{power} is a power that kernels do not have", "replace this power by a symbol"
+        )
     whole, half = divmod(int(2 * abs(exponent)), 2)
     printed = printer.doprint(base)
     factors = [f"({printed})" if base.args else printed] * whole + [f"math.sqrt({printed})"] * half
@@ -87,5 +89,7 @@ def _power(printer: Any, power: Expression, rational: bool = False) -> str:
 def _function(printer: Any, call: Expression) -> str:
     function = type(call).__name__
     if function not in _FUNCTIONS:
-        raise InputError("modal", "kernel", f"{function} is a function that kernels do not have", "give it a symbol")
+        raise InputError(
+            "modal", "kernel", f"{function} is a function that kernels do not have", "replace this function by a symbol"
+        )
     return f"{function}({printer.doprint(call.args[0])})"

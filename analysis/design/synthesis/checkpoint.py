@@ -37,11 +37,11 @@ def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
         for name, value in facts.items():
             if name not in stored or stored[name] != json.loads(json.dumps(value)):
                 raise InputError(
-                    path, name, "differs from its value at the start of the search", f"restore it, or {REMEDY}"
+                    path, name, "differs from its value at the start of the search", f"restore that value, or {REMEDY}"
                 )
         return state_of(document["state"])
     except FileNotFoundError as error:
-        raise InputError(path, "", "not found", "leave out `resume` to begin") from error
+        raise InputError(path, "", "not found", "leave out `resume` to begin a search") from error
     except InputError:
         raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError) as error:

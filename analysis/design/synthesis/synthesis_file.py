@@ -85,7 +85,9 @@ def read_synthesis(path: Path) -> Synthesis:
     for key, reason in REFUSED.items():
         if key in whole.content:
             raise whole.error(
-                key, f"not allowed here: {reason}", "remove it; perilune batch can simulate the law that was found"
+                key,
+                f"not allowed here: {reason}",
+                "remove this table; perilune batch can simulate the law that was found",
             )
     remainder = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
     campaign = parse_campaign(TomlTable(remainder, whole.file, origins=whole.origins, attached=whole.attached))
@@ -100,7 +102,10 @@ def read_synthesis(path: Path) -> Synthesis:
     for name in (*campaign.input_names(), *campaign.settings):
         if name in law_parameters(basic, component):
             raise InputError(
-                campaign.file, name, "a parameter of the law, which the search sets", "do not draw or set it"
+                campaign.file,
+                name,
+                "a parameter of the law, which the search sets",
+                "do not draw or set this parameter",
             )
     return Synthesis(
         campaign=campaign,
@@ -128,10 +133,12 @@ def _settings(table: TomlTable) -> SearchSettings:
         if not low <= getattr(settings, name) <= high:
             raise table.error(name, f"{values[name]!r} is out of range", f"give {low:g} to {high:g}")
     if settings.elites >= settings.population:
-        problem = f"{settings.elites} of a population of {settings.population}"
+        problem = f"{settings.elites} elites fill the population of {settings.population}"
         raise table.error("elites", problem, "leave room for at least one new candidate")
     if settings.coding.bits == 0:
-        raise table.error("fraction_bits", "no bits at all for the parameters", "give integer_bits or fraction_bits")
+        raise table.error(
+            "fraction_bits", "integer_bits and fraction_bits are both 0", "give at least one bit to one of them"
+        )
     return settings
 
 
@@ -143,7 +150,7 @@ def _objectives(table: TomlTable, campaign: Campaign) -> dict[str, Expression]:
             raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
         objectives[name] = table.get(name, expression)
         for unknown in sorted(objectives[name].names - metrics):
-            raise table.error(name, f"{unknown!r} is not a metric", "use the names of [metric....]")
+            raise table.error(name, f"{unknown!r} is not a metric", "use names declared under [metric.NAME]")
     if not objectives:
         raise table.error("", "no objective", 'add one or more: name = "expression over metrics"')
     return objectives

@@ -72,7 +72,9 @@ class _BoundReader(AnnotationReader):
             name = roles["name"]
             if not name.isidentifier() or any(key.startswith(f"{name}.") for key in inputs):
                 raise self.refuse(
-                    piece, f"name {name!r} is used twice or not a word", "give each element a name of its own"
+                    piece,
+                    f"name {name!r} is used twice or not a word",
+                    "give each element a different name, without spaces",
                 )
             for role in HOVER if is_hover else STOP:
                 inputs[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
@@ -87,7 +89,7 @@ class _BoundReader(AnnotationReader):
             return float(name)
         component, variable = split_name(name, prepared.network.fmus)
         if not component or variable not in prepared.network.fmus[component].variables:
-            raise self.refuse(element, f"{name}: no such parameter", "name one as COMPONENT.VARIABLE")
+            raise self.refuse(element, f"{name}: no such parameter", "name a parameter as COMPONENT.VARIABLE")
         start = prepared.network.fmus[component].variables[variable].start_text
         value = prepared.settings.variables.get((component, variable), start)
         try:

@@ -59,7 +59,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     inputs = read_inputs(prepared)
     if inputs is None:
         return None
-    remedy = f"store it with perilune design bound {prepared.archive.name}"
+    remedy = f"store the bound with perilune design bound {prepared.archive.name}"
     if PLACE not in prepared.archive.files:
         return MissingBound(f"no {PLACE} in the system; {remedy}")
     bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")
@@ -72,7 +72,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
 
 def read_bound(content: bytes, file: str) -> StoredBound:
     """Return a stored bound. Raises InputError for any other file, or one whose hash does not match its inputs."""
-    remedy = "store it again with perilune design bound"
+    remedy = "store the bound again with perilune design bound"
     try:
         document = json.loads(content)
     except ValueError as error:

@@ -86,10 +86,10 @@ LANDING_VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
 def check_vehicle(vehicle: Vehicle) -> Vehicle:
     if not vehicle.minimum_thrust < vehicle.maximum_thrust:
         problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
-        raise InputError("`minimum_thrust`", f"{vehicle.minimum_thrust:g}", problem, "give less")
+        raise InputError("`minimum_thrust`", f"{vehicle.minimum_thrust:g}", problem, "give a smaller minimum thrust")
     if not vehicle.dry_mass < vehicle.mass:
         problem = f"not below the mass, {vehicle.mass:g} kg"
-        raise InputError("`dry_mass`", f"{vehicle.dry_mass:g}", problem, "give less")
+        raise InputError("`dry_mass`", f"{vehicle.dry_mass:g}", problem, "give a smaller dry mass")
     return vehicle
 
 
@@ -98,14 +98,14 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
     check_vehicle(planned)
     full, minimum = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
     if not planned.full > transfer.gravity:
-        problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
+        problem = f"{planned.full:.4g} m/s2 at full thrust do not exceed the gravity of {transfer.gravity:g} m/s2"
         raise InputError("`maximum_thrust`", full, problem, "give more thrust, or less mass")
     if not planned.least > 0.0:
         raise InputError(
-            "`minimum_thrust`", minimum, "the programme's engine never stops", "give the least that it has"
+            "`minimum_thrust`", minimum, "the programme never shuts the engine down", "give the engine's minimum thrust"
         )
     if not planned.least < transfer.gravity:
-        problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
+        problem = f"{planned.least:.4g} m/s2 at this thrust exceed gravity, {transfer.gravity:g} m/s2: no descent"
         raise InputError("`minimum_thrust`", minimum, problem, "give less thrust, or more mass")
 
 

@@ -116,12 +116,12 @@ def hover_study(
     if programme is None or vertical is None:
         when = "" if duration is None else f" that takes {duration:g} s"
         raise PlanError(
-            f"no simplified programme{when} goes {transfer.distance:g} m along in {transfer.descent:g} m of descent: "
-            "its turns find no room; go less far or take another time"
+            f"no simplified programme{when} covers {transfer.distance:g} m in {transfer.descent:g} m of descent: "
+            "there is no room for its turns; give a shorter distance or another duration"
         )
     of_turns = {"adjoint": adjoint, "finite_switches": finite_switches, "free_fall": free_fall}
     for name in [name for name, is_requested in of_turns.items() if is_requested and programme.kind == VERTICAL]:
-        problem = f"nothing turns on the way straight down, {transfer.distance:g} m along"
+        problem = f"a vertical descent, over {transfer.distance:g} m, has no turn"
         raise InputError(f"`{name}`", "", problem, "give `distance` 1 m or more")
     others = optimum or curves or finite_switches or free_fall
     best = programme if duration is None or not others else find_programme(planned, transfer)
@@ -160,8 +160,8 @@ def hover_study(
 
 def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
     if plan is None:
-        way = f"{transfer.distance:g} m along in {transfer.descent:g} m of descent"
-        raise PlanError(f"no {what} goes {way}; take another distance")
+        way = f"{transfer.distance:g} m in {transfer.descent:g} m of descent"
+        raise PlanError(f"no {what} covers {way}; give another distance")
     return plan
 
 

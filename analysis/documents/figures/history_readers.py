@@ -21,7 +21,7 @@ def read_band(reader: SignalReader, element: etree._Element) -> BandFigure:
     attributes = reader.attributes(element, ("signal",), BAND)
     low, high = reader.limits(element, "low", "high")
     if low is None and high is None:
-        raise reader.refuse(element, "neither low nor high", "give one of them, or both")
+        raise reader.refuse(element, "has neither low nor high", "give low, high or both")
     unit = reader.unit(element, attributes["unit"], attributes["signal"]) if "unit" in attributes else None
     signal = reader.signal(element, "signal", unit=unit)
     about = tuple(signal.factor * value for value in reader.numbers(element, "about"))
@@ -88,7 +88,9 @@ def read_curve(reader: SignalReader, element: etree._Element) -> CurveFigure:
     ]
     labels = tuple(element.get("labels", "").split())
     if labels and len(labels) != len(signals):
-        raise reader.refuse(element, f"labels has {len(labels)} names, signals {len(signals)}", "give as many")
+        raise reader.refuse(
+            element, f"labels has {len(labels)} names, signals {len(signals)}", "give one label for each signal"
+        )
     low, high = reader.limits(element, "low", "high")
     return CurveFigure(
         title=reader.title(element, attributes["signals"]),
@@ -105,16 +107,20 @@ def read_curve(reader: SignalReader, element: etree._Element) -> CurveFigure:
 def read_path(reader: SignalReader, element: etree._Element) -> PathFigure:
     attributes = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
     if ("x" in attributes) == ("arc" in attributes) or ("arc" in attributes) != ("radius" in attributes):
-        raise reader.refuse(element, "it needs either x, or arc and radius", "give one of the two")
+        raise reader.refuse(element, "needs either x, or arc and radius", "give one of the two")
     x = reader.scalar(element, "x") if "x" in attributes else _arc(reader, element)
     y = reader.scalar(element, "y")
     equal = reader.truth(element, "equal")
     if equal and x.unit_name != y.unit_name:
-        raise reader.refuse(element, f"equal, but {x.label} and {y.label} differ in unit", "leave equal out")
+        raise reader.refuse(
+            element, f"equal needs one unit, but {x.label} and {y.label} differ in unit", "leave out equal"
+        )
     points = []
     for child in reader.parts(element, ("Point",))["Point"]:
         if isinstance(x, Arc):
-            raise reader.refuse(child, "a Point in a Path with an arc", "leave it out, or give the Path an x")
+            raise reader.refuse(
+                child, "a Path with arc has no Points", "remove the Point, or give the Path x instead of arc"
+            )
         name = reader.attributes(child, ("x", "y", "name"))["name"]
         points.append(PathPoint(reader.scalar(child, "x", like=x), reader.scalar(child, "y", like=y), name))
     return PathFigure(

@@ -64,5 +64,5 @@ def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[et
             reader.attributes(element, ("title",), (FOLDED,))["title"], reader.truth(element, FOLDED)
         )
         if not any(reader.parts(element, [name for name in (*READERS, BUDGET) if name not in UNGROUPED]).values()):
-            raise reader.refuse(element, "no figure", "put one or more into it, or drop it")
+            raise reader.refuse(element, "has no figure", "add a figure, or remove this element")
         yield from ((figure, group) for figure in element.iterchildren(etree.Element))

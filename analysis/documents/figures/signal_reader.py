@@ -44,7 +44,7 @@ class SignalReader(AnnotationReader):
         """Read a Boolean attribute; the default is false."""
         text = element.get(attribute, "false").strip()
         if text not in TRUTHS:
-            raise self.refuse(element, f"{attribute} {text!r} is neither true nor false", "write one of them")
+            raise self.refuse(element, f"{attribute} {text!r} is neither true nor false", "write true or false")
         return TRUTHS[text]
 
     def parameter(self, element: etree._Element, attribute: str) -> float:
@@ -56,7 +56,7 @@ class SignalReader(AnnotationReader):
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
-            remedy = "name one as COMPONENT.VARIABLE"
+            remedy = "name a parameter as COMPONENT.VARIABLE"
             raise self.signal_error(element, name, f"{attribute} {name}: no such parameter", remedy)
         value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start_text)
         if fmu.variables[variable].type not in NUMBERS:
@@ -66,7 +66,9 @@ class SignalReader(AnnotationReader):
     def integer(self, element: etree._Element, attribute: str) -> int:
         value = self.number(element, attribute)
         if value is None or not value.is_integer():
-            raise self.refuse(element, f"{attribute} {element.get(attribute)} is not an integer", "correct it")
+            raise self.refuse(
+                element, f"{attribute} {element.get(attribute)} is not an integer", "write a whole number"
+            )
         return int(value)
 
     def words(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
@@ -78,7 +80,7 @@ class SignalReader(AnnotationReader):
         )
         if "" in names or len(set(names)) < len(names):
             raise self.refuse(
-                element, f"{attribute} {element.get(attribute)!r}: a name is empty or repeated", "correct it"
+                element, f"{attribute} {element.get(attribute)!r}: a name is empty or repeated", "write different names"
             )
         return names
 
@@ -94,11 +96,11 @@ class SignalReader(AnnotationReader):
         if "where" not in element.attrib:
             for name in ROWS[1:]:
                 if name in element.attrib:
-                    raise self.refuse(element, f"{name} without where", 'write where="..." too, or leave it out')
+                    raise self.refuse(element, f"{name} needs where", f'also write where="...", or leave out {name}')
             return None
         low, high = (self.number(element, name) for name in ROWS[1:])
         if low is None and high is None:
-            raise self.refuse(element, "where without from and to", "give one of them, or both")
+            raise self.refuse(element, "where needs from or to", "give from, to or both")
         if low is not None and high is not None and low > high:
             raise self.refuse(element, f"from {low:g} is above to {high:g}", "swap them")
         return SampleRange(self.scalar(element, "where"), low, high)
@@ -118,7 +120,7 @@ class SignalReader(AnnotationReader):
         """Check that a signal has ``size`` elements. Raises InputError."""
         if size != len(signal.names):
             problem = f"{problem}, {signal.label} has {len(signal.names)} elements"
-            raise self.signal_error(element, signal.label, problem, "give as many")
+            raise self.signal_error(element, signal.label, problem, f"give {len(signal.names)}")
 
     def displayed(self, name: str) -> str:
         """Return a signal's name as displayed in figures."""
@@ -176,7 +178,7 @@ class SignalReader(AnnotationReader):
             raise self.signal_error(element, name, f"{what} is not {' or '.join(types)}", "name another signal")
         unit_of_first = self.network.unit_of(names[0])
         if any(self.network.unit_of(item) != unit_of_first for item in names):
-            raise self.signal_error(element, name, f"{what}: its elements differ in unit", "name one of them")
+            raise self.signal_error(element, name, f"{what}: its elements differ in unit", "name one element")
         signal = Signal(self.displayed(name), names, unit_of_first, 1.0, (0.0,) * len(names))
         if like is not None:
             self.check_size(element, f"{what} has {len(names)} elements", len(names), like)

@@ -42,7 +42,7 @@ def bound_values(prepared: PreparedSystem) -> BoundValues | None:
 def read_phases(reader: SignalReader, element: etree._Element) -> PhasesFigure:
     attributes = reader.attributes(element, ("signal",), ("spent", "status", "status_times", "title"))
     if "status" in attributes and "status_times" in attributes:
-        raise reader.refuse(element, "status and status_times", "give one of them")
+        raise reader.refuse(element, "has both status and status_times", "give one of the two")
     parts = reader.parts(element, ("Phase", "Meaning"))
     signal = reader.scalar(element, "signal", WHOLE)
     return PhasesFigure(
@@ -68,9 +68,11 @@ def _phases(
         name = reader.attributes(part, ("value", "name"), ("until",))["name"]
         value = reader.integer(part, "value")
         if any(name == phase.name for phase in phases):
-            raise reader.refuse(part, f"name {name} is there twice", "choose another")
+            raise reader.refuse(part, f"name {name} is there twice", "choose another name")
         if value in open_ended:
-            raise reader.refuse(part, f"value {value}: the Phase before it has no end", 'give that one until="..."')
+            raise reader.refuse(
+                part, f"value {value}: the preceding Phase of this value lacks until", 'add until="..." there'
+            )
         until = None
         if "until" in part.attrib:
             until = reader.scalar(part, "until", (*NUMBERS, "Boolean"))
@@ -79,7 +81,7 @@ def _phases(
         phases.append(SequencerPhase(value, name, until))
     for phase, part in zip(phases, parts, strict=True):
         if phase.value not in open_ended:
-            raise reader.refuse(part, f"no Phase of value {phase.value} without until", "add the one that follows")
+            raise reader.refuse(part, f"the last Phase of value {phase.value} has until", "add the Phase that follows")
     return tuple(phases)
 
 
@@ -115,14 +117,14 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
         raise reader.refuse(element, f"measure {measure} is unknown", suggestion(measure, MEASURES))
     minimum, maximum = reader.limits(element, "least", "most")
     if minimum is None and maximum is None:
-        raise reader.refuse(element, "neither least nor most", "give one of them, or both")
+        raise reader.refuse(element, "has neither least nor most", "give least, most or both")
     unit = reader.unit(element, attributes["unit"], attributes["signal"]) if "unit" in attributes else None
     signal = reader.signal(element, "signal", unit=unit)
     if measure is None and len(signal.names) > 1:
         remedy = f"name a scalar, or write measure={' or '.join(f'{name!r}' for name in MEASURES)}"
         raise reader.signal_error(element, signal.label, f"signal {signal.label} is a vector", remedy)
     if "about" in attributes and "less" in attributes:
-        raise reader.refuse(element, "about and less", "give one of them")
+        raise reader.refuse(element, "has both about and less", "give one of the two")
     signal = reader.about(element, signal)
     signal, less = reader.less(element, signal)
     return Limit(signal, attributes.get("name") or signal.label, minimum, maximum, less, measure)
@@ -133,9 +135,11 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
     reader.attributes(element, (), ("title",))
     declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
     if len(declared) != 1:
-        raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with the attribute spent")
+        raise reader.refuse(
+            element, f"{len(declared)} preceding elements Phases", "write one, with the attribute spent"
+        )
     if "spent" not in declared[0].attrib:
-        raise reader.refuse(element, "the Phases before it have no spent", 'give them spent="..."')
+        raise reader.refuse(element, "the preceding Phases lacks the attribute spent", 'add spent="..." to Phases')
     phases = [figure for figure in before if isinstance(figure, PhasesFigure) and figure.spent is not None]
     if not phases:
         raise MissingSignalError("the consumption of phases is not available")
@@ -154,7 +158,7 @@ def _item(
     attributes = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
     named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
     if not named and not plus and not minus:
-        raise reader.refuse(element, "nothing to sum up", "give phases, plus or minus")
+        raise reader.refuse(element, "has no terms", "give phases, plus or minus")
     for name in named:
         if name not in phases:
             raise reader.refuse(element, f"phases {name}: no such phase", suggestion(name, phases))

@@ -51,7 +51,7 @@ class Preparation:
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):
-                remedy = "give each once, and rename files with the same name"
+                remedy = "give each candidate once, and rename files with the same name"
                 raise InputError("`slots`", f"{slot}={','.join(candidates)}", "two candidates have one name", remedy)
         count = 1
         for candidates in self.slots.values():
@@ -63,7 +63,7 @@ class Preparation:
             _check(choice.prepared)
         if len({(each.prepared.start, each.prepared.step, each.prepared.steps) for each in choices}) > 1:
             steps = ", ".join(dict.fromkeys(f"{each.prepared.step:g} s" for each in choices))
-            problem = f"their systems differ in times, with steps of {steps}"
+            problem = f"the candidates' systems differ in times, with steps of {steps}"
             raise InputError("`slots`", ", ".join(self.slots), problem, "give `step` and `stop_time`")
         return choices
 

@@ -27,7 +27,7 @@ TABLES = re.compile(
 )
 ELEMENT = re.compile(r"\{offsetof\(Block, ([^)]+)\), (KIND_\w+) \| (ROLE_\w+), \d+\},")
 RETAINED_ROLES = ("ROLE_PARAMETER", "ROLE_TUNABLE", "ROLE_INPUT")
-REMEDY = "build it again with this Perilune"
+REMEDY = "build the FMU again with this version of Perilune"
 FILE = """\
 /* The block {name} as a component of a system: translated, as the file says below, with a prefix before its names. */
 #ifndef {guard}

@@ -171,7 +171,9 @@ class SystemModel:
         }
         if len(kinds) > 1:
             problem = f"{', '.join(kinds)}, depending on the candidate: one variable cannot represent both"
-            raise InputError("`slots`", name, problem, "do not expose it or give it a fault, or remove a candidate")
+            raise InputError(
+                "`slots`", name, problem, "leave this variable out of `expose` and `faults`, or remove a candidate"
+            )
 
     def _program(self, choice: SlotChoice) -> ChoiceProgram:
         prepared = choice.prepared
@@ -199,7 +201,10 @@ class SystemModel:
             error = None
             if name in self.network.description.system.connectors:
                 raise InputError(
-                    "`expose`", name, "a connector of the system, which is always a variable of the FMU", "leave it out"
+                    "`expose`",
+                    name,
+                    "a connector of the system, which is always a variable of the FMU",
+                    "leave the connector out of `expose`",
                 )
             nodes = [choice.prepared.network.nodes.get(name) for choice in self.choices]
             if any(node is not None and node.component is None and "." in name for node in nodes):
@@ -215,7 +220,10 @@ class SystemModel:
         for name in exposed:
             if any(self._is_parameter(choice.prepared.network, name) for choice in self.choices):
                 raise InputError(
-                    "`expose`", name, "a parameter, which is always a parameter of the FMU", "leave it out"
+                    "`expose`",
+                    name,
+                    "a parameter, which is always a parameter of the FMU",
+                    "leave the parameter out of `expose`",
                 )
         return list(exposed)
 
@@ -257,5 +265,5 @@ def _find_faulty(choices: Sequence[SlotChoice], names: Sequence[str]) -> list[st
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)
     if len(set(names)) < len(names):
-        raise InputError("`faults`", ", ".join(names), "names a connector twice", "give it once")
+        raise InputError("`faults`", ", ".join(names), "names a connector twice", "name each connector once")
     return list(names)

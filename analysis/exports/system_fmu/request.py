@@ -29,4 +29,4 @@ class OneFmu:
                 raise InputError("`slots`", f"{slot}={','.join(candidates)}", problem, "give SLOT=FMU,FMU")
             if slot in self.options.use and self.options.use[slot] not in candidates:
                 problem = f"`use` gives {self.options.use[slot]}, which is not among the candidates"
-                raise InputError("`slots`", slot, problem, "add it, or leave `use` out")
+                raise InputError("`slots`", slot, problem, "add this FMU to the candidates, or leave out `use`")

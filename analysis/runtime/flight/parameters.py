@@ -134,8 +134,8 @@ class Parameters:
         """Return the start value of an element that was not set, in an array that is set as a whole."""
         variable = self._network.fmus[component].variables[name]
         if variable.start is None:
-            problem = f"{name} has neither a value nor a start, and its array is set as a whole"
-            remedy = f"give all of {component}.{variable.array}"
+            problem = f"{name} has neither a value nor a start, and FMI 3.0 sets arrays whole"
+            remedy = f"give a value for every element of {component}.{variable.array}"
             raise InputError(self._network.file, f"{component}.{name}", problem, remedy)
         return parse_value(variable.start, variable.type, self._network.fmus[component].label, name)
 

@@ -116,4 +116,4 @@ def _key(network: Network, name: str) -> Key:
             return component, variable.name
         if name.startswith(f"{component}.") and variable is not None and variable.causality == STRUCTURAL:
             raise InputError(network.file, name, *NOT_VARIED)
-    raise InputError(network.file, name, "no such parameter", "see perilune list for components")
+    raise InputError(network.file, name, "no such parameter", "name a parameter or an input as component.variable")

@@ -36,13 +36,15 @@ def check_description(root: etree._Element, label: str) -> None:
     if interface is None:
         kinds = [kind for kind in ("ModelExchange", "ScheduledExecution") if root.find(kind) is not None]
         problem = f"not a co-simulation FMU: {' and '.join(kinds) or 'no interface'} only"
-        raise InputError(label, "CoSimulation", problem, "export it for co-simulation")
+        raise InputError(label, "CoSimulation", problem, "export the FMU for co-simulation")
     require_attributes(interface, ("modelIdentifier",), label, _line_of(interface))
     variables = [each for each in root.iterfind("ModelVariables/*") if isinstance(each.tag, str)]
     clock = next((each for each in variables if each.tag == "Clock"), None)
     if clock is not None:
         problem = "a Clock: FMUs with clocks are not supported"
-        raise InputError(label, f"{clock.get('name')} (line {clock.sourceline})", problem, "export it without clocks")
+        raise InputError(
+            label, f"{clock.get('name')} (line {clock.sourceline})", problem, "export the FMU without clocks"
+        )
     for element in root.iterfind("TypeDefinitions/*"):
         _check_type(element, label)
     for variable in variables:
@@ -75,7 +77,7 @@ def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str
     """Reject arrays with more elements than can be exchanged one by one. Raises InputError."""
     total = sum(math.prod(shape(each, sizes)) for each in description.modelVariables if each.dimensions)
     if total > MOST_ELEMENTS:
-        problem = f"its arrays have {total} elements, of {MOST_ELEMENTS} at most"
+        problem = f"its arrays have {total} elements, more than the limit of {MOST_ELEMENTS}"
         raise InputError(label, "Dimension", problem, "choose smaller structural parameters")
 
 
@@ -133,7 +135,7 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
         if start is not None:
             _check_texts(element, "start", [start], _size, "a number of elements", label)
         elif not (reference or "").strip() or known[int(reference)].get("causality") != "structuralParameter":
-            raise InputError(label, _line_of(element), "neither a start nor a structural parameter", FIX)
+            raise InputError(label, _line_of(element), "has neither a start nor a structural parameter", FIX)
         elif known[int(reference)].find("Dimension") is not None:
             raise InputError(label, _line_of(element), "its structural parameter is an array", FIX)
         else:

@@ -69,7 +69,9 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
     main = sources.get(f"{model}.c", "")
     if WRAPPER not in main:
         problem = "its C code has another interface than fused steps need"
-        raise InputError(label, "sources", problem, "export it again with this Perilune, or simulate it `native`")
+        raise InputError(
+            label, "sources", problem, "export the FMU again with this version of Perilune, or give `flavour` native"
+        )
     headers: set[str] = set()
     text = _include(main.replace(WRAPPER, NEEDED) + OFFSETS, sources, label, headers, set())
     return ComponentCode(prefix, _rename(text, prefix), frozenset(headers))

@@ -21,7 +21,7 @@ from ..instances.instance import PLACED, Instance
 from ..loop import arrays
 from ..system.fmu import Fmu
 from .component_code import ComponentCode, component_code
-from .refusals import INSTALL, NO_COMPILER, has_code
+from .refusals import INSTALL, NO_COMPILER, NO_PLATFORM, has_code
 from .unit import ENTRY, SELF_TEST, write_unit
 
 FILE = "fused.c"
@@ -54,7 +54,7 @@ def fuse(
         problem = (
             f"the steps repeat after {len(program.phases) - 1} communication steps only, too many for one function"
         )
-        raise InputError("`flavour`", FUSED, problem, "simulate it `native`")
+        raise InputError("`flavour`", FUSED, problem, "give `flavour` native")
     library = _load(_compile(write_unit(program, recorded, components), is_needed))
     _check_arithmetic(library)
     for number, instance in enumerate(instances.values()):
@@ -97,17 +97,17 @@ def _compile(text: str, is_needed: Callable[[], bool]) -> Path:
     platform, cached = local_platform(), CACHE / "fused"
     try:
         if platform is None:
-            raise CompilerMissing("no platform of FMI 2.0")
+            raise InputError("`flavour`", FUSED, NO_PLATFORM, "leave `flavour` out")
         (file,) = library_files({FILE: text.encode()}, FILE, platform, cached, flags=FLAGS, is_needed=is_needed)
     except CompilerMissing as error:
         raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error
     except CompilationFailed as error:
         lines = str(error).splitlines()
         problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
-        raise InputError("`flavour`", FUSED, problem, "simulate it `native`") from error
+        raise InputError("`flavour`", FUSED, problem, "give `flavour` native") from error
     except OSError as error:
         problem = f"the library cannot be written: {error.filename or gettempdir()}: {reason_of(error)}"
-        raise InputError("`flavour`", FUSED, problem, f"{remedy_of(error)}, or simulate it `native`") from error
+        raise InputError("`flavour`", FUSED, problem, f"{remedy_of(error)}, or give `flavour` native") from error
     return file
 
 
@@ -117,7 +117,7 @@ def _load(file: Path) -> ctypes.CDLL:
         return ctypes.CDLL(str(file))
     except OSError as error:
         problem = f"the compiler's output is not a library: {error}"
-        raise InputError("`flavour`", FUSED, problem, "repair the compiler, or simulate it `native`") from error
+        raise InputError("`flavour`", FUSED, problem, "repair the compiler, or give `flavour` native") from error
 
 
 def _check_arithmetic(library: ctypes.CDLL) -> None:
@@ -126,7 +126,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
     check.restype = ctypes.c_char_p
     problem = check()
     if problem is not None:
-        raise InputError("`flavour`", FUSED, problem.decode(), "simulate it `native`")
+        raise InputError("`flavour`", FUSED, problem.decode(), "give `flavour` native")
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:
@@ -139,4 +139,4 @@ def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance)
         references = np.array([variable.reference], dtype=np.uint32)
         if instance.locate(references, variable.type) != instance.address + offset_of(variable.reference):
             problem = f"its C has {variable.name} at another address than its binary"
-            raise InputError(instance.fmu.label, "sources", problem, "export it again, or simulate it `native`")
+            raise InputError(instance.fmu.label, "sources", problem, "export the FMU again, or give `flavour` native")

@@ -9,7 +9,8 @@ from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
 
 NO_COMPILER = "needs a C compiler, and none is installed"
-INSTALL = "install cc, or pip install ziglang; or simulate it `native`"
+NO_PLATFORM = "FMI 2.0 does not define this platform, so steps cannot be compiled here"
+INSTALL = "install cc, or pip install ziglang; or give `flavour` native"
 
 
 def has_code(fmu: Fmu) -> bool:
@@ -31,17 +32,19 @@ def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
         return
     if in_child:
         problem = "the system is simulated in child processes, where steps are not compiled"
-        trust = "" if prepared.is_self_contained else "; or give `in_process` where you trust its FMUs"
+        trust = "" if prepared.is_self_contained else "; or give `in_process` if you trust its FMUs"
         raise InputError("`flavour`", FUSED, problem, f"leave `flavour` out{trust}")
     if prepared.has_fmi3:
-        raise InputError("`flavour`", FUSED, "the system has FMUs of FMI 3.0, which are not fused", "fly it `native`")
+        raise InputError(
+            "`flavour`", FUSED, "the system has FMI 3.0 FMUs, which cannot be fused", "give `flavour` native"
+        )
     if not any(map(has_code, prepared.network.fmus.values())):
         problem = "the system has no native FMU of Perilune, whose C could be fused"
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     platform = local_platform()
+    if platform is None:
+        raise InputError("`flavour`", FUSED, NO_PLATFORM, "leave `flavour` out")
     try:
-        if platform is None:
-            raise CompilerMissing("no platform of FMI 2.0")
         compilers_for(platform)
     except CompilerMissing as error:
         raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error

@@ -252,7 +252,7 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: boo
             if fmu.digest in _alone:
                 problem = "can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
                 raise InputError(
-                    fmu.label, name, problem, "simulate once at a time, or export the FMU for several instances"
+                    fmu.label, name, problem, "run one simulation at a time, or export the FMU for several instances"
                 )
             _alone.add(fmu.digest)
     number = next(_instances)

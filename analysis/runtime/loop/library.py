@@ -42,7 +42,9 @@ def load_library() -> ctypes.CDLL:
     try:
         library = ctypes.CDLL(str(file if file.is_file() else _compile()))
     except OSError as error:
-        raise InputError("Perilune", str(file), f"is not a library: {error}", "build or install it again") from error
+        raise InputError(
+            "Perilune", str(file), f"is not a library: {error}", "build or install Perilune again"
+        ) from error
     _check(library)
     library.perilune_fly.restype = library.perilune_fly_group.restype = ctypes.c_int64
     library.perilune_time_allowance.restype = ctypes.c_double
@@ -99,7 +101,8 @@ def _compile() -> Path:
     platform = local_platform(FMI)
     try:
         if platform is None:
-            raise CompilerMissing
+            problem = "the simulation loop is not built, and FMI 3.0 does not define this platform"
+            raise InputError("Perilune", FOLDER, problem, "use Linux, macOS or Windows on a 64-bit machine")
         compilers_for(platform)
         (file,) = library_files(sources(), MAIN, platform, CACHE / FOLDER, flags=FLAGS)
     except CompilerMissing as error:

@@ -63,7 +63,10 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
     missing = find_missing()
     if missing and options.trust["isolate"] == "strict":
         raise InputError(
-            "`isolate`", options.trust["isolate"], "; ".join(missing), "leave it out, or use another operating system"
+            "`isolate`",
+            options.trust["isolate"],
+            "; ".join(missing),
+            "leave out `isolate`, or use another operating system",
         )
     if missing:
         warnings.warn(f"foreign FMUs are not restricted here: {'; '.join(missing)}", stacklevel=2)

@@ -25,7 +25,7 @@ class AnnotationReader:
         """Return the single element, ``name``, of an annotation."""
         elements = self.parts(annotation, (name,))[name]
         if len(elements) != 1:
-            raise self.refuse(annotation, f"{len(elements)} elements {name}", "write one")
+            raise self.refuse(annotation, f"{len(elements)} elements {name}", "write only one")
         return elements[0]
 
     def parts(self, element: etree._Element, known: Collection[str]) -> dict[str, list[etree._Element]]:
@@ -64,7 +64,9 @@ class AnnotationReader:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or (positive and value <= 0.0):
-            raise self.refuse(element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "fix it")
+            raise self.refuse(
+                element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "correct this number"
+            )
         return value
 
 
@@ -83,7 +85,7 @@ def feedthrough_of_component(component: etree._Element, file: str) -> bool | Non
     if not matches:
         return None
     if len(matches) > 1:
-        raise reader.refuse(matches[1], f"a second annotation of type {FEEDTHROUGH}", "write one")
+        raise reader.refuse(matches[1], f"a second annotation of type {FEEDTHROUGH}", "write only one")
     element = reader.content(matches[0], "Feedthrough")
     text = reader.attributes(element, ("direct",))["direct"]
     if text not in DIRECT:
@@ -106,7 +108,9 @@ def check_annotations(root: etree._Element, file: str) -> None:
             _check_content(annotation, kind, file)
             owner = annotation.getparent().getparent()
             if kind == FEEDTHROUGH and tag(owner) != "Component":
-                raise InputError(file, place, f"type {kind} in a {tag(owner)}", "write it into a Component")
+                raise InputError(
+                    file, place, f"type {kind} is not for a {tag(owner)}", "move the annotation into a Component"
+                )
         elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
             raise InputError(file, place, f"no annotation has type {kind}", suggestion(kind, OURS))
 

@@ -96,7 +96,7 @@ class SystemArchive:
         if name not in self.files and not self._inside(name) and _leads_outside(name):
             where = "folder" if self.path.is_dir() else "archive"
             problem = f"{name} lies outside the system's {where}"
-            raise InputError(self.label, element, problem, "put the file inside and correct the reference")
+            raise InputError(self.label, element, problem, "put the file inside the system and correct the reference")
         if not self.has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
         if name not in self.files:
@@ -154,7 +154,9 @@ class SystemArchive:
         if name not in self.files:
             variants = self.variants()
             if variant is None:
-                raise InputError(self.label, name, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})")
+                raise InputError(
+                    self.label, name, "not found", f"add this SSD (SSDs here: {', '.join(variants) or 'none'})"
+                )
             raise InputError(self.label, "`variant`", f"no variant {variant}", suggestion(variant, variants))
         return name
 
@@ -260,7 +262,7 @@ def open_system(system: str | Path) -> SystemArchive:
         remedy = f"perilune compose {text} writes its SSD; give the folder"
         raise InputError(text, "", "the source file of a system is not a system", remedy)
     if path.suffix == ".toml":
-        remedy = f"perilune batch SYSTEM --campaign {text} simulates it with its system"
+        remedy = f"perilune batch SYSTEM --campaign {text} simulates the campaign"
         raise InputError(text, "", "a campaign is not a system", remedy)
     if path.is_file():
         return SystemArchive(path.stem, text, path, ZippedFiles(read_input(path, OTHER, ARCHIVE_BYTES), text))

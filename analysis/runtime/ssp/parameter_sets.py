@@ -79,7 +79,7 @@ def read_parameter_set(
             _flaw(notes, file, where, "given twice in one parameter set", "this value is taken", "remove one")
         for item in parameter:
             if tag(item) == "Binary":
-                raise InputError(file, where, "Binary values are not supported", "remove it")
+                raise InputError(file, where, "Binary values are not supported", "remove the Binary value")
             if tag(item) in RUNTIME_TYPES:
                 unit_name = item.get("unit") or None
                 if unit_name is not None and unit_name not in units:

@@ -58,5 +58,5 @@ def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> 
     if len(texts) != math.prod(shape):
         size = f"the {math.prod(shape)} elements of its dimensions" if shape else "a scalar"
         problem = f"{len(texts)} value{'' if len(texts) == 1 else 's'} for {size}"
-        raise InputError(file, where, problem, "give as many values, or correct its Dimensions")
+        raise InputError(file, where, problem, "give one value for each element, or correct the Dimensions")
     return shape, [parse_value(text, type_name, file, where) for text in texts]

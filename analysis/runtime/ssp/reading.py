@@ -202,7 +202,9 @@ class Reader:
         else:
             inline = element.find("{*}SignalDictionary")
             if inline is None:
-                raise self.refuse(element, name, "signal dictionary without source or content", "give one of them")
+                raise self.refuse(
+                    element, name, "signal dictionary without source or content", "give source or content"
+                )
             check_schema(inline, "ssb", self.file)
             root = inline
         for unit in units_of_document(root, "ssb", file).values():
@@ -220,7 +222,9 @@ class Reader:
         for part, kind in ((element, "set"), (mapping, "mapping")):
             expected = f"application/x-ssp-parameter-{kind}"
             if part is not None and part.get("sourceBase", "SSD") != "SSD":
-                raise self.refuse(part, "ParameterBinding", 'sourceBase="component" is not supported', "use SSD")
+                raise self.refuse(
+                    part, "ParameterBinding", 'sourceBase="component" is not supported', 'write sourceBase="SSD"'
+                )
             if part is not None and part.get("type", expected) != expected:
                 raise self.refuse(
                     part, "ParameterBinding", f"type {part.get('type')} is not supported", f"use {expected}"
@@ -229,7 +233,9 @@ class Reader:
         source = element.get("source")
         inline = values.find("{*}ParameterSet") if values is not None else None
         if source is None and inline is None:
-            raise self.refuse(element, "ParameterBinding", "neither source nor inline values", "give one of them")
+            raise self.refuse(
+                element, "ParameterBinding", "neither source nor inline values", "give a source or values"
+            )
         return Binding(
             prefix=element.get("prefix", ""),
             source=source,

@@ -27,7 +27,7 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[SystemDescription,
     InputError for a variant, which an FMU does not have.
     """
     if options.chosen["variant"] is not None:
-        raise InputError(fmu.label, "`variant`", "an FMU alone has no variants", "leave it out")
+        raise InputError(fmu.label, "`variant`", "an FMU alone has no variants", "leave out `variant`")
     connectors = {
         variable.name: Connector(variable.name, variable.causality, variable.type, None, None, 0)
         for variable in fmu.variables.values()

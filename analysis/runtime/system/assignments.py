@@ -85,7 +85,7 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
     values = str(assignment.value).split(ELEMENTS)
     if len(values) != len(names):
         problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for the {len(names)} elements {names[0]} ..."
-        remedy = f"give {len(names)} with commas between, or one element: {names[0]}"
+        remedy = f"give {len(names)} values separated by commas, or one element: {names[0]}"
         raise InputError(assignment.file, assignment.where, problem, remedy)
     return [replace(assignment, name=name, value=value) for name, value in zip(names, values, strict=True)]
 
@@ -220,7 +220,12 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
         type_of_value = "Enumeration"
     if type_of_value != type_name:
         remedy = f"give {'an' if type_name in ('Enumeration', 'Integer') else 'a'} {type_name}"
-        raise InputError(assignment.file, assignment.where, f"is {type_of_value}, the variable is {type_name}", remedy)
+        raise InputError(
+            assignment.file,
+            assignment.where,
+            f"the value is of type {type_of_value}, but the variable is of type {type_name}",
+            remedy,
+        )
     transformation = assignment.transformation or Transformation()
     if type_name == "Real":
         if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
@@ -258,7 +263,7 @@ def _map_value(assignment: Assignment, transformation: Transformation, type_name
     table = [[parse_value(text, type_name, *where) for text in entry] for entry in transformation.table]
     targets = [target for source, target in table if source == value]
     if not targets and not transformation.is_partial:
-        raise InputError(*where, f"the mapping has no entry for {value}", "add one")
+        raise InputError(*where, f"the mapping has no entry for {value}", "add an entry for this value")
     return targets[-1] if targets else value
 
 
@@ -266,7 +271,7 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
     """Return a single value parsed from text; a bare number is in the variable's unit."""
     if type_name in ("Real", "Boolean", *WHOLE) and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
-        remedy = f"give one{unit}; sweeps low:high:step are for perilune batch"
+        remedy = f"give one value{unit}; sweeps low:high:step are for perilune batch"
         raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is not a single value", remedy)
     try:
         return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)

@@ -99,7 +99,7 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
     component, short = split_name(name, network.fmus)
     variable = network.fmus[component].variables.get(short) if component else None
     if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
-        remedy = f"set it before the start, `set` {name}=VALUE, or use a tunable parameter"
+        remedy = f"set it before the start by `set` {name}=VALUE, or use a tunable parameter"
         raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
 
 
@@ -124,7 +124,9 @@ def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: 
     component, own = split_name(name, network.fmus)
     unfed = network.fmus[component].variables.get(own) if component else None
     if unfed is not None and unfed.causality == "input":
-        raise InputError(*where, "an input that nothing is connected to", f"give it a value with `set` {name}=VALUE")
+        raise InputError(
+            *where, "an input that nothing is connected to", f"give the input a value with `set` {name}=VALUE"
+        )
     raise InputError(*where, "no such connector of a component", suggestion(name, known))
 
 

@@ -117,10 +117,14 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
                 raise InputError(option, name, "no such component", f"use one of {', '.join(sorted(components))}")
     for name in options.chosen["feedthrough"]:
         if name in options.chosen["no_feedthrough"]:
-            raise InputError(OPTIONS[0], name, f"is also given to {OPTIONS[1]}", "give it to one of them")
+            raise InputError(
+                OPTIONS[0], name, f"is also given to {OPTIONS[1]}", "give the component to only one of the two options"
+            )
         if is_alone:
             problem = "an FMU alone is stepped with the inputs of the step's start, as FMPy does it"
-            raise InputError(OPTIONS[0], name, problem, "leave it out, or simulate it as a component of a system")
+            raise InputError(
+                OPTIONS[0], name, problem, f"leave out {OPTIONS[0]}, or simulate the FMU as a component of a system"
+            )
 
 
 def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:

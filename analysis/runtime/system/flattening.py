@@ -94,7 +94,9 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     if variable is None:
         if f"{connector.name}[1]" in fmu.variables or f"{connector.name}[1,1]" in fmu.variables:
             problem = f"is an array in {fmu.label}, a scalar here"
-            raise network.refuse(connector.at(name), problem, "give it its Dimensions (SSP 2.0), or name its elements")
+            raise network.refuse(
+                connector.at(name), problem, "give the connector its Dimensions (SSP 2.0), or name its elements"
+            )
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
         raise network.refuse(connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     kind = connector.kind or variable.causality

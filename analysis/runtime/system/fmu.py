@@ -153,14 +153,14 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if flaws and strict:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU, or simulate without `strict`")
     if description.coSimulation is None:
-        raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
+        raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export the FMU for co-simulation")
     if not is_fmi3 and fmpy.architecture == "aarch64" and fmpy.system != "darwin":
         problem = f"FMI 2.0 does not define the platform {fmpy.platform_tuple}, so no FMU has a binary for it"
         raise InputError(label, "binaries", problem, "use an x86_64 machine or macOS")
     binary = _binary(description)
     if binary not in archive.namelist():
         has_sources = any(name.startswith("sources/") and name.endswith(".c") for name in archive.namelist())
-        remedy = "compile the FMU's sources for it" if has_sources else "export it for this platform"
+        remedy = "compile the FMU's sources for this platform" if has_sources else "export the FMU for this platform"
         if description.coSimulation.needsExecutionTool:
             remedy = "use its native flavour"
         raise InputError(label, binary, "no binary for this platform", remedy)

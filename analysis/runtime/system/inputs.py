@@ -48,7 +48,8 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
         setting = f"`set` {shlex.quote(f'{open_inputs[0].name}=VALUE')}"
         connecting = "drive" if names_fmu(network.file) else "connect"
         driving = " by `input`" if names_fmu(network.file) else ""
-        remedy = f"{connecting} {'it' if one else 'them'}{driving}, give a value: {setting}, or `open_inputs` start"
+        inputs_named = "the input" if one else "the inputs"
+        remedy = f"{connecting} {inputs_named}{driving}, give a value: {setting}, or `open_inputs` start"
         assigned = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
         if assigned is not None:
             remedy = f"add {assigned} to the mapping, which omits it; or {remedy}"
@@ -182,7 +183,7 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
             raise InputError(*where, "no such input", suggestion(column, known))
         if name in columns:
             raise InputError(
-                *where, f"drives {name}, which column {columns[name]} also drives", "leave one of them out"
+                *where, f"drives {name}, which column {columns[name]} also drives", "leave out one of the two columns"
             )
         _check_type(series, column, *types[name])
         _check_bounds(network, series, column, name)

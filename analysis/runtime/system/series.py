@@ -64,7 +64,7 @@ def read_series(source: SeriesSource) -> InputSeries:
             row = int(wrong[0])
             raise InputError(series.file, series.place(row, name), f"{values[row]} is not finite", "give a number")
     if not math.isfinite(float(series.time[-1]) - float(series.time[0])):
-        raise InputError(series.file, f"column {TIME}", "times too far apart for double precision", "correct them")
+        raise InputError(series.file, f"column {TIME}", "times too far apart for double precision", "correct the times")
     falls = np.flatnonzero(np.diff(series.time) < 0.0)
     if falls.size:
         row = int(falls[0]) + 1
@@ -84,8 +84,8 @@ def _of_file(path: str) -> InputSeries:
             if not fields:
                 continue  # an empty line
             if len(fields) != len(names):
-                problem = f"{len(fields)} numbers, but {len(names)} columns"
-                raise InputError(path, f"line {reader.line_num}", problem, "give one for each column")
+                problem = f"{len(fields)} values, but there are {len(names)} columns"
+                raise InputError(path, f"line {reader.line_num}", problem, "give one value for each column")
             try:
                 numbers.extend(map(float, fields))
             except ValueError:
@@ -106,7 +106,7 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
         raise InputError(file, place, f"the first column is {names[0]!r}, not {TIME}", FORM)
     for name, count in Counter(names).items():
         if count > 1:
-            raise InputError(file, place, f"column {name} is there twice", "leave one of them out")
+            raise InputError(file, place, f"column {name} is there twice", "remove one of the two")
 
 
 def _number(file: str, line: int, name: str, text: str) -> float:

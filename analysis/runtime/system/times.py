@@ -31,7 +31,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     declared = chosen["step"] if chosen["step"] is not None else _read_step(network)
     step = declared if declared is not None else _shortest_proposal(network)
     if step is None:
-        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
+        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes a step", "give `step`")
     if not 0.0 < step < float("inf"):
         raise InputError("`step`", str(step), "not a positive number of seconds", "give a positive step")
     stop = chosen["stop_time"] if chosen["stop_time"] is not None else description.stop_time
@@ -44,7 +44,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         raise error
     start = description.start_time
     if not math.isfinite(start):
-        raise InputError(experiment, "startTime", f"{start} is not finite", "correct it")
+        raise InputError(experiment, "startTime", f"{start} is not finite", "give a finite start time")
     step_option = ("`step`", f"{step:g}")
     stop_option = (
         ("`stop_time`", f"{stop:g}") if chosen["stop_time"] is not None else (experiment, f"stopTime {stop:g}")
@@ -81,7 +81,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
             own = _step_of_system(network, name)
         period = 1 if own is None else max(1, int(own / step * (1.0 + STEP_ROUNDING)))
         if period > LONGEST_PERIOD:
-            problem = f"its step of {own:g} s takes more than {LONGEST_PERIOD} communication steps of {step:g} s"
+            problem = f"its step of {own:g} s spans more than {LONGEST_PERIOD} communication steps of {step:g} s"
             raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer `step`")
         if own is not None and abs(own - period * step) > STEP_ROUNDING * own:
             network.notes.append(f"{name}: steps by {period * step:g} s, not by the requested {own:g} s")

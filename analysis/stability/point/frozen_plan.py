@@ -45,5 +45,5 @@ def check_frozen_plan(prepared: PreparedSystem, point: PointDeclaration) -> None
             component = output.partition(".")[0]
             where = f"point {point.name}, {component} ({prepared.network.fmus[component].name})"
             problem = f"{parameter} is {setting:g}, and {output} is {actual:.4g} at t = {flight.time[-1]:g} s"
-            remedy = "choose an FMU that holds its plan (a law in Python: by planned_time), or leave it at 0"
+            remedy = "choose an FMU that holds its plan (a law in Python: by planned_time), or leave the parameter at 0"
             raise InputError(prepared.network.file, where, problem, remedy)

@@ -62,7 +62,7 @@ class Injector:
         self.seconds = self.channel.period * self.bench.prepared.step
         samples = max(FEWEST, round(2.0 * np.pi / (self.lowest * self.seconds)))
         if samples > MOST:
-            raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples a period, more than {MOST}")
+            raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples per period, more than {MOST}")
         # A periodic loop also answers at frequencies apart by those of the hyperperiod. Over a whole number of
         # hyperperiods, of which a period of the signal is none, these fall between the lines. Nor is a line at
         # a multiple of the hyperperiod's frequency, where what stays constant answers in the linearisation.
@@ -163,7 +163,8 @@ class Injector:
         end = self.bench.time + points * self.bench.prepared.step
         if until is not None and end > until:
             raise NotMeasurableError(
-                f"{self.lowest:.3g} rad/s and its transient take until {end:g} s, but the point lasts until {until:g} s"
+                f"measuring at {self.lowest:.3g} rad/s, transient included, would last until {end:g} s, but the "
+                f"operating point ends at {until:g} s"
             )
         if points + self.bench.origin > FLIGHT_POINTS:
             raise NotMeasurableError(f"a measurement takes {points} communication points, more than {FLIGHT_POINTS}")

@@ -157,7 +157,7 @@ class LoopStudy:
                 f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg with {item.amplitude:g}"
                 for item in points
             )
-            raise StudyError(f"not applicable, since it is not linear: at {frequency:.3g} rad/s L is {sizes}")
+            raise StudyError(f"not applicable, since the loop is not linear: at {frequency:.3g} rad/s L is {sizes}")
 
     def _refuse_silence(self) -> None:
         """Raise LoopError, unless the model is unstable and a simulation confirms the growth."""

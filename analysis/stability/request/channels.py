@@ -131,7 +131,9 @@ def _period(loop: LoopDeclaration, network: Network, step: float, where: str) ->
 def _vector(network: Network, name: str, where: str) -> list[str]:
     connectors = _connectors(network, name, where)
     if len(connectors) != len(AXES):
-        raise InputError(network.file, where, f"{name} does not have three components", "name a vector of three")
+        raise InputError(
+            network.file, where, f"{name} does not have three components", "name a vector of three components"
+        )
     return connectors
 
 
@@ -145,5 +147,5 @@ def _connectors(network: Network, name: str, where: str) -> list[str]:
         node = network.nodes[item]
         if node.component is None or node.kind not in ("output", "input") or node.type_name != "Real":
             problem = f"{item} is not a Real input or output of a component"
-            raise InputError(network.file, where, problem, "name one as component.connector")
+            raise InputError(network.file, where, problem, "name a connector as component.connector")
     return connectors

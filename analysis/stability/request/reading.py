@@ -37,7 +37,7 @@ class _RequestReader(AnnotationReader):
             names = [item.name for item in items]
             for position, name in enumerate(names):
                 if name in names[:position]:
-                    raise self.refuse(elements[position], f"the name {name} is taken", "give it another one")
+                    raise self.refuse(elements[position], f"the name {name} is there twice", "choose another name")
         return Declaration(self.limits(children["Limits"]), points, loops, sweeps)
 
     def limits(self, elements: list[etree._Element]) -> MarginLimits:
@@ -53,10 +53,10 @@ class _RequestReader(AnnotationReader):
     def point(self, element: etree._Element) -> PointDeclaration:
         values = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
         if ("signal" in values) != ("falls_to" in values) or ("signal" in values) == ("time" in values):
-            raise self.refuse(element, "neither a time nor a signal that falls_to a value, or both", "give one of them")
+            raise self.refuse(element, "needs either a time, or a signal and falls_to", "give one of the two")
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
-            raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
+            raise self.refuse(element, f"until {until:g} s is not after time {time:g} s", "give a later until")
         return PointDeclaration(
             name=values["name"],
             time=time,
@@ -81,7 +81,7 @@ class _RequestReader(AnnotationReader):
         for element in elements:
             item = self.attributes(element, (key, value))
             if item[key] in values:
-                raise self.refuse(element, f"{item[key]} is given twice", "give it once")
+                raise self.refuse(element, f"{item[key]} is given twice", "give each name once")
             values[item[key]] = item[value]
         return values
 
@@ -92,13 +92,13 @@ class _RequestReader(AnnotationReader):
             ("direction", "direction_rate", "ahead", "returned", "period", "amplitude"),
         )
         if ("direction_rate" in values) != ("ahead" in values) or ("ahead" in values and "direction" not in values):
-            raise self.refuse(element, "direction_rate and ahead come together, with a direction", "give all three")
+            raise self.refuse(element, "direction_rate and ahead need each other, and a direction", "give all three")
         names = tuple(values["points"].split())
         for name in names:
             if name not in points:
                 raise self.refuse(element, f"no point {name}", suggestion(name, points))
         if len(set(names)) < len(names):
-            raise self.refuse(element, "a point is given twice", "give it once")
+            raise self.refuse(element, "a point is given twice", "give each name once")
         return LoopDeclaration(
             name=values["name"],
             cut=values["cut"],
@@ -124,7 +124,7 @@ class _RequestReader(AnnotationReader):
         try:
             complete_parameters(kind, values)
         except ValueError as error:
-            raise self.refuse(element, str(error), "fix it") from error
+            raise self.refuse(element, str(error), "correct this element") from error
         return NonlinearElement(name, kind, values, self.layer(self.parts(element, LAYER_ELEMENTS)))
 
     def sweep(self, element: etree._Element, loops: dict[str, LoopDeclaration]) -> Sweep:

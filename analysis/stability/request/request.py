@@ -79,7 +79,7 @@ def read_request(
         without = {"configuration": configuration, "trials": trials, "seed": seed, "trial": trial, "draws": draws}
         for name, value in without.items():
             if value is not None:
-                raise InputError(f"`{name}`", str(value), "there is no campaign", "give `campaign` with it")
+                raise InputError(f"`{name}`", str(value), "needs a campaign", "also give `campaign`")
         return request
     plan = read_plan(system, campaign, options, configuration=configuration, trials=trials, seed=seed, draws=draws)
     if configuration is None:
@@ -87,7 +87,7 @@ def read_request(
             plan, campaign=replace(plan.campaign, compare={})
         )  # without compared FMUs: a study is of one system
     if len(names := [each.name for each in plan.campaign.variants()]) > 1:
-        problem = f"the campaign has {len(names)}, but a study needs one"
+        problem = f"the campaign has {len(names)} configurations, but a study needs one"
         raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {names[0]}")
     check_plan(plan)
     if trial is None:
@@ -112,7 +112,7 @@ def _select(
     selected: list[LoopDeclaration] = []
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
-            remedy = f"{suggestion(name, by_name)}, or cut one" if by_name else "it names none; cut one"
+            remedy = f"{suggestion(name, by_name)}, or cut a loop" if by_name else "the SSD names none; cut a loop"
             raise InputError("`loops`", name, "the SSD declares no such loop", f"{remedy} with COMPONENT.CONNECTOR")
         selected.append(
             by_name.get(name) or LoopDeclaration(name, cut=name, points=tuple(point.name for point in cuts))
@@ -153,10 +153,8 @@ def _shift(points: Sequence[PointDeclaration], at: Sequence[float]) -> list[Poin
     for point in points:
         for time in at:
             if point.until is not None and time >= point.until:
-                problem = f"point {point.name} lasts until {point.until:g} s"
-                raise InputError(
-                    "`at`", f"{time:g}", problem, "give times before it, or leave its loops out with `loops`"
-                )
+                problem = f"point {point.name} ends at {point.until:g} s"
+                raise InputError("`at`", f"{time:g}", problem, "give earlier times, or select other loops with `loops`")
             name = _name_at(point.name, time)
             phase = f"settings of {point.name}"
             shifted.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
@@ -171,7 +169,7 @@ def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> Sys
     """Return options with the draws of one trial as settings, which override the campaign's and yield to the user's."""
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
-        raise InputError("`trial`", str(trial), problem, "give one of them")
+        raise InputError("`trial`", str(trial), problem, "give one of these trials")
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)
     sampled = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}

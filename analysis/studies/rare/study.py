@@ -42,7 +42,7 @@ def rare_failure(
     if samples < 100:
         raise InputError("`samples`", str(samples), "too few", "give 100 or more")
     if not 0.0 < least < 1.0:
-        raise InputError("`least`", f"{least:g}", "not a probability", "give one between 0 and 1")
+        raise InputError("`least`", f"{least:g}", "not a probability", "give a number between 0 and 1")
     space = DrawSpace(plan.campaign, hold, may_be_empty=True)
     requested = failure_of(plan.campaign, failure)
     flown = Flown()

@@ -55,7 +55,7 @@ def read_realisations(
     for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
             problem = f"all simulations have the noise of trial {noise_trial}"
-            raise InputError(option, f"{value:g}", problem, "leave it or `noise_trial` out")
+            raise InputError(option, f"{value:g}", problem, f"leave out {option} or `noise_trial`")
     if count is not None and count < 1:
         raise InputError("`realisations`", str(count), "not a positive number", "give 1 or more")
     fraction = QUANTILE if quantile is None else quantile

@@ -53,10 +53,10 @@ def check_options(loop: str | None, options: Mapping[str, object]) -> None:
     """Reject options, by name, that do not apply to a loop, or only to a loop. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:
-            raise InputError(f"`{name}`", str(options[name]), "it needs `loop`", "give `loop`")
+            raise InputError(f"`{name}`", str(options[name]), "needs `loop`", "give `loop`")
     for name, remedy in OF_FLIGHTS.items() if loop is not None else ():
         if options[name]:
-            raise InputError(f"`{name}`", "", "does not go with `loop`", remedy)
+            raise InputError(f"`{name}`", "", "cannot be combined with `loop`", remedy)
 
 
 def request_margin(

@@ -123,7 +123,9 @@ class _Search:
         if flights < LEAST:
             raise InputError("`flights`", str(flights), "too few", f"give {LEAST} or more")
         if not 0.0 < sigmas < 20.0:
-            raise InputError("`sigmas`", f"{sigmas:g}", "not a valid box", "give a number above 0, such as 3")
+            raise InputError(
+                "`sigmas`", f"{sigmas:g}", "not a valid size of the search box", "give a number above 0, such as 3"
+            )
         self._space = DrawSpace(plan.campaign, hold)
         self._sigmas, self._flights, self._seed = sigmas, flights, plan.campaign.seed
         self.noise_trial, self.workers = noise_trial, workers
@@ -144,7 +146,7 @@ class _Search:
         inside = np.all((places >= 0.0) & (places <= 1.0), axis=1)
         if not inside.any():
             problem = f"none of {len(values)} random trials is within {sigmas:g} sigmas in all draws"
-            raise InputError("`sigmas`", f"{sigmas:g}", problem, "give more")
+            raise InputError("`sigmas`", f"{sigmas:g}", problem, "give a larger number")
         left = budget - points.flights
         points.drop_ineffective_noise()
         place, value, phases = largest(

@@ -15,7 +15,7 @@ def require_browser(option: str) -> None:
     try:
         webbrowser.get()
     except webbrowser.Error as error:
-        raise InputError(option, "", "no browser is installed here", f"leave it out, and {REMEDY}") from error
+        raise InputError(option, "", "no browser is installed here", f"leave out {option}, and {REMEDY}") from error
 
 
 def open_page(option: str, page: Path) -> None:

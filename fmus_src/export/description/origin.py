@@ -70,7 +70,7 @@ def _date() -> str:
     try:
         return _text_of(datetime.fromtimestamp(int(seconds), UTC))
     except (ValueError, OverflowError, OSError):
-        remedy = "give whole seconds since 1970, or unset it"
+        remedy = f"give whole seconds since 1970, or unset {EPOCH}"
         raise InputError(EPOCH, seconds, "is not a time", remedy) from None
 
 

@@ -51,8 +51,8 @@ def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
     Raises ValueError for a block with a variable ``time``.
     """
     if TIME in block_class.variables:
-        problem = f"a variable {TIME}, which is the independent one of FMI 3.0"
-        raise ValueError(f"{block_class.__name__}.{TIME}: {problem}; give it another name")
+        problem = "is reserved for FMI 3.0's independent variable"
+        raise ValueError(f"{block_class.__name__}.{TIME}: {problem}; rename this one")
     variables: list[ArrayVariable] = []
     first = 0
     for declared in block_class.variables.values():

@@ -176,7 +176,7 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
         (METRIC.format("settled") + 'condition = "a.b"\n', "metric.m.condition: not used by the reduction 'settled'"),
         (
             METRIC.format("max") + "delay = 1\n",
-            "metric.m.delay: not used by the reduction 'max'; drop it, or use first",
+            "metric.m.delay: not used by the reduction 'max'; remove delay, or use first",
         ),
         (METRIC.format("mean") + "window = [1, 0]\n", "metric.m.window: [1, 0] is not an interval"),
         (METRIC.format("mean") + "window = [nan, 0]\n", "metric.m.window[1]: nan is not a number"),

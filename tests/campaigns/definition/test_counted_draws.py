@@ -74,7 +74,7 @@ def test_a_table_in_parts_is_the_table(campaign, size):
 def test_a_table_has_an_end(campaign):
     with pytest.raises(InputError) as caught:
         draw_table(campaign(RANDOM, trials=int(TABLE_TRIALS.default) + 1))
-    says = "1000001 trials, of 1000000 at most that are drawn as one table"
+    says = "1000001 trials, but at most 1000000 can be drawn as one table"
     remedy = 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
     assert str(caught.value) == f"test.toml: trials: {says}; {remedy}"
 

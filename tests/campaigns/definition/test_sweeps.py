@@ -95,7 +95,7 @@ def test_a_sweep_takes_the_place_of_a_fixed_value(campaign):
         ("a.b=1:7:1", "12 trials do not fill a grid of 7 points; give a multiple of 7: trials 7 or 14"),
         ("a.b=1:20:1", "12 trials do not fill a grid of 20 points; give a multiple of 20: trials 20"),
         ("mass=1:2:1", "not a component's variable; give component.variable"),
-        ("d.x=1:2:1", "the campaign draws it in every trial; leave it out"),
+        ("d.x=1:2:1", "the campaign draws it in every trial; leave out this sweep"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(campaign, sweep, words):
@@ -173,12 +173,12 @@ def test_a_trial_of_a_sweep_flies_again(folder, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        (["run", SYSTEM, "--set", SWEEP], "'900:1000:25' is not a single value; give one, in kg; sweeps low:high:step"),
+        (["run", SYSTEM, "--set", SWEEP], "'900:1000:25' is not a single value; give one value, in kg; sweeps"),
         (["batch", SYSTEM, "--campaign", "paper", "--set", f"{MASS}=900:1000"], "is not a single value"),
         (["rare", SYSTEM, "--campaign", "paper", "--set", SWEEP], "a study has no sweeps"),
         (["sensitivity", SYSTEM, "--campaign", "paper", "--base", "64", "--set", SWEEP], "a study has no sweeps"),
         (["batch", SYSTEM, "--campaign", "paper", "--trials", "20", "--set", "plant.mas=1:2:1"], "no such parameter"),
-        (["batch", SYSTEM, "--campaign", "paper", "--draws", "d.parquet", "--set", SWEEP], "a sweep together with"),
+        (["batch", SYSTEM, "--campaign", "paper", "--draws", "d.parquet", "--set", SWEEP], "a sweep cannot be"),
     ],
 )  # fmt: skip
 def test_lines_of_the_command_line(fmus, command, words, capsys):

@@ -68,6 +68,6 @@ def test_every_trial_changes_a_parameter(ssp: Path, tmp_path: Path) -> None:
 
 def test_a_fixed_parameter_is_refused(ssp: Path, tmp_path: Path) -> None:
     (tmp_path / "c.toml").write_text(CAMPAIGN.replace('connector = "ramp.slope"', 'connector = "ramp.start"'))
-    words = "a parameter that is fixed after initialisation; set it before the start, set ramp.start=VALUE"
+    words = "a parameter that is fixed after initialisation; set it before the start by set ramp.start=VALUE"
     with pytest.raises(perilune.InputError, match=re.escape(words)):
         perilune.batch(ssp, str(tmp_path / "c.toml"), workers=1)

@@ -93,10 +93,10 @@ def test_divisors_of_zero_are_not_noticed_above() -> None:
 @pytest.mark.parametrize(
     ("size", "options", "message"),
     [
-        ((6, 2, 2), {}, "F has m p = 4 elements for n poles"),
+        ((6, 2, 2), {}, "F has m p = 4 elements, too few for n poles"),
         ((4, 2, 3), {"starts": 0}, "starts"),
-        ((4, 4, 2), {}, "there are no upper levels"),
-        ((4, 2, 4), {}, "there are no upper levels"),
+        ((4, 4, 2), {}, "drives every state"),
+        ((4, 2, 4), {}, "measures every state"),
         ((4, 2, 3), {"upper": [-9.0, -8.0]}, "not one of the poles"),
     ],
 )

@@ -41,11 +41,14 @@ def test_calendar(time, leap_seconds):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("tomorrow",), "utc: 'tomorrow': not a date and time of ISO 8601; write it as 2026-03-20T18:00:00Z"),
-        ((20260320,), "utc: 20260320: not a date and time of ISO 8601; write it as 2026-03-20T18:00:00Z"),
-        (("2026-03-20T18:00:00",), "utc: '2026-03-20T18:00:00': without a time zone; write it as 2026-03-20T18:00:00Z"),
+        (("tomorrow",), "utc: 'tomorrow': not a date and time of ISO 8601; write the time as 2026-03-20T18:00:00Z"),
+        ((20260320,), "utc: 20260320: not a date and time of ISO 8601; write the time as 2026-03-20T18:00:00Z"),
+        (
+            ("2026-03-20T18:00:00",),
+            "utc: '2026-03-20T18:00:00': without a time zone; write the time as 2026-03-20T18:00:00Z",
+        ),
         (("2016-12-31T23:59:59Z",), "utc: '2016-12-31T23:59:59Z': before 2017; give leap_seconds, TAI - UTC in s at"),
-        (("2026-03-20T18:00:00Z", 36.5), "leap_seconds: 36.5: not a whole number; give one, as 37"),
+        (("2026-03-20T18:00:00Z", 36.5), "leap_seconds: 36.5: not a whole number; give a whole number, such as 37"),
     ],
 )
 def test_no_date(arguments, message):
@@ -98,8 +101,14 @@ def test_hyperbola():
     [
         ({"eccentricity": 1.0}, "eccentricity: 1.0: neither an ellipse nor a hyperbola; give 0 to below 1, or above 1"),
         ({"eccentricity": -0.1}, "eccentricity: -0.1: neither an ellipse"),
-        ({"semi_major_axis": -7e6}, "semi_major_axis: -7000000.0: not above 0, as an ellipse needs; change it or"),
-        ({"eccentricity": 1.2}, "semi_major_axis: 7000000.0: not below 0, as a hyperbola needs; change it or"),
+        (
+            {"semi_major_axis": -7e6},
+            "semi_major_axis: -7000000.0: not above 0, as an ellipse needs; change semi_major_axis or",
+        ),
+        (
+            {"eccentricity": 1.2},
+            "semi_major_axis: 7000000.0: not below 0, as a hyperbola needs; change semi_major_axis or",
+        ),
         (
             {"semi_major_axis": -7e6, "eccentricity": 1.2, "true_anomaly": 3.0},
             "true_anomaly: 3.0: beyond the asymptote",

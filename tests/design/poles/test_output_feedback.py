@@ -103,7 +103,11 @@ def test_what_it_refuses() -> None:
     a, b, c, poles = next(random_systems(1, 6, 3, 4, most_pairs=0))
     for arguments, reason, problem in (
         ((a, b[:, :2], c[:3], poles), modal.Reason.CLASS, r"n, m, p = 6, 2, 3: m \+ p = 5 is less than n"),
-        ((a[:2, :2], b[:2, :1], c[:1, :2], [-1, -2]), modal.Reason.CLASS, r"F has m p = 1 elements for n poles"),
+        (
+            (a[:2, :2], b[:2, :1], c[:1, :2], [-1, -2]),
+            modal.Reason.CLASS,
+            r"F has m p = 1 elements, too few for n poles",
+        ),
         ((a, b[:, [0, 1, 1]], c, poles), modal.Reason.RANK, "B does not have full rank"),
         ((a, b, c[[0, 1, 2, 2]], poles), modal.Reason.RANK, "C does not have full rank"),
     ):
@@ -143,10 +147,13 @@ def test_plants_with_modes_out_of_reach() -> None:
             "modal: upper: the number of upper poles depends on the method; give method direct or dual",
         ),
         ({"starts": 0}, "modal: starts: 0 starts; give 1 or more"),
-        ({"upper": [-9.0], "method": "direct"}, "modal: upper: 1 poles; give 2, each as often as it is repeated"),
+        (
+            {"upper": [-9.0], "method": "direct"},
+            "modal: upper: 1 poles; give 2, with each repeated pole listed as often as it occurs",
+        ),
         (
             {"upper": [-9.0, -1.0], "method": "direct"},
-            "modal: upper: -9 is not one of the poles; name some of the poles",
+            "modal: upper: -9 is not one of the poles; choose the upper poles among the poles",
         ),
     ],
 )

@@ -54,7 +54,7 @@ def test_what_it_refuses() -> None:
     with pytest.raises(modal.PlacementError, match="C of 3 rows has rank 2") as refused:
         modal.output_feedback_set(a, b, c[[0, 1, 1]])
     assert refused.value.number == 2
-    with pytest.raises(ValueError, match="modal: z: it is 5; give 6 numbers"):
+    with pytest.raises(ValueError, match="modal: z: is 5; give 6 numbers"):
         modal.output_feedback_set(a, b, c).at(np.ones(5))
 
 
@@ -123,7 +123,7 @@ def test_plants_that_a_common_feedback_made() -> None:
         ([], np.eye(2), "plants: no plant"),
         ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: their sizes do not fit 2 inputs"),
         ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: not an array of numbers; give p matrices"),
-        ([turned_plant(1.0)], np.eye(2), r"wanted: it is \(2, 2\); give \(2, 2, 2\)"),
+        ([turned_plant(1.0)], np.eye(2), r"wanted: has shape \(2, 2\); give shape \(2, 2, 2\)"),
     ],
 )
 def test_wrong_input_is_one_line(plants: list, wanted: np.ndarray, problem: str) -> None:

@@ -92,17 +92,25 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
 @pytest.mark.parametrize(
     ("arguments", "options", "line"),
     [
-        (([[0.0, 1.0]], *SYSTEM[1:]), {}, "modal: A: it is 1 by 2; give a square matrix, n by n"),
-        (([0.0, 1.0], *SYSTEM[1:]), {}, "modal: A: it has 1 dimensions; give a matrix, a list of rows"),
-        (([[0.0, 1.0], [0.0]], *SYSTEM[1:]), {}, "modal: A: its rows differ in length; give a matrix"),
-        (([[0.0, 1j], [0.0, 0.0]], *SYSTEM[1:]), {}, "modal: A: its elements are complex128; give real numbers"),
-        (([[0.0, np.inf], [0.0, 0.0]], *SYSTEM[1:]), {}, "modal: A: an element is not finite; give finite numbers"),
+        (([[0.0, 1.0]], *SYSTEM[1:]), {}, "modal: A: is 1 by 2; give a square matrix, n by n"),
+        (([0.0, 1.0], *SYSTEM[1:]), {}, "modal: A: has 1 dimensions; give a matrix, a list of rows"),
+        (([[0.0, 1.0], [0.0]], *SYSTEM[1:]), {}, "modal: A: has rows of different length; give a matrix"),
+        (([[0.0, 1j], [0.0, 0.0]], *SYSTEM[1:]), {}, "modal: A: has elements of type complex128; give real numbers"),
+        (
+            ([[0.0, np.inf], [0.0, 0.0]], *SYSTEM[1:]),
+            {},
+            "modal: A: has an element that is not finite; give finite numbers",
+        ),
         (
             (SYSTEM[0], [[1.0]], SYSTEM[2]),
             {},
-            "modal: B: it is 1 by 1, and A has 2 states; give one row per state",
+            "modal: B: is 1 by 1, and A has 2 states; give one row per state",
         ),
-        ((*SYSTEM[:2], [-1.0]), {}, "modal: poles: 1 poles; give 2, each as often as it is repeated"),
+        (
+            (*SYSTEM[:2], [-1.0]),
+            {},
+            "modal: poles: 1 poles; give 2, with each repeated pole listed as often as it occurs",
+        ),
         ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j lacks its conjugate; give 0-2j, too"),
         (
             SYSTEM,

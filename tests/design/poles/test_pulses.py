@@ -95,14 +95,14 @@ def test_what_is_no_pulse() -> None:
     for lengths, values, problem in (
         ([0.1, 0.3], [1.0, 1.0], "lengths: a pulse of 0.3 s; give 0 to 0.2 s, the tick"),
         ([-0.1, 0.1], [1.0, 1.0], "lengths: a pulse of -0.1 s; give 0 to 0.2 s, the tick"),
-        ([0.1], [1.0, 1.0], "lengths: it is 1; give 2 numbers"),
-        ([0.1, 0.1], [1.0], "values: it is 1; give 2 numbers"),
+        ([0.1], [1.0, 1.0], "lengths: is 1; give 2 numbers"),
+        ([0.1, 0.1], [1.0], "values: is 1; give 2 numbers"),
     ):
         with pytest.raises(ValueError, match=problem):
             plant.after([0.0, 0.0], lengths, values)
-    with pytest.raises(ValueError, match="state: it is 3; give 2 numbers"):
+    with pytest.raises(ValueError, match="state: is 3; give 2 numbers"):
         plant.after([0.0, 0.0, 0.0], [0.1, 0.1], [1.0, 1.0])
-    with pytest.raises(ValueError, match="period: it is 0 s; give a time above 0"):
+    with pytest.raises(ValueError, match="period: is 0 s; give a time above 0"):
         modal.PulsedPlant.of(np.eye(2), np.eye(2), 0.0)
-    with pytest.raises(ValueError, match="longest: it is 0 s; give a time above 0"):
+    with pytest.raises(ValueError, match="longest: is 0 s; give a time above 0"):
         modal.pulsed_step(pendulum, [0.0, 0.0], [0.1], [1.0], 0.2, longest=0.0)

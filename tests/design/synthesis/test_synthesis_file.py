@@ -100,11 +100,11 @@ def changed(old, new):
         (changed("variations = 4", "variations = 0"), "variations: 0 is out of range"),
         (changed("renewal = 2", "renewal = 0"), "renewal: 0 is out of range"),
         (changed("elites = 2", "elites = -1"), "elites: -1 is out of range"),
-        (changed("elites = 2", "elites = 8"), "elites: 8 of a population of 8"),
+        (changed("elites = 2", "elites = 8"), "elites: 8 elites fill the population of 8"),
         (changed("renewal = 2", "mutation = 1.5"), "mutation: 1.5 is out of range; give 0 to 1"),
         (changed("renewal = 2", "crossover = -0.1"), "crossover: -0.1 is out of range"),
         (changed("renewal = 2", "integer_bits = 25"), "integer_bits: 25 is out of range"),
-        (changed("renewal = 2", "integer_bits = 0\nfraction_bits = 0"), "no bits at all"),
+        (changed("renewal = 2", "integer_bits = 0\nfraction_bits = 0"), "integer_bits and fraction_bits are both 0"),
         (changed("renewal = 2", "integer_bits = 0"), "q[1]: 1 is outside 0 to 2^0"),
         (changed("renewal = 2", "stop = 1"), "stop: 1 is neither true nor false"),
         (changed("step = 0.5", "step = 0"), "network_operator.step: 0 s; give more than 0 s"),
@@ -149,5 +149,8 @@ def test_a_basic_solution_that_cannot_be_varied(tmp_path):
 def test_a_batch_does_not_fly_a_synthesis(tmp_path):
     path = tmp_path / "search.toml"
     path.write_text(TEXT)
-    with pytest.raises(InputError, match="network_operator: a search, not a batch; search with perilune design search"):
+    with pytest.raises(
+        InputError,
+        match="network_operator: declares a search, which a batch cannot run; search with perilune design search",
+    ):
         read_campaign(path)

@@ -146,19 +146,19 @@ def test_hash_is_of_every_input():
 def test_stored_and_found(tmp_path):
     place = declared_system(tmp_path)
     missing = find_bound(prepared(place))
-    assert missing == MissingBound(f"no {PLACE} in the system; store it with perilune design bound landing")
+    assert missing == MissingBound(f"no {PLACE} in the system; store the bound with perilune design bound landing")
     assert write_bound(BOUND, place) == place / PLACE
     assert find_bound(prepared(place)) == BOUND
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))
     assert isinstance(other, MissingBound)
     assert other.reason.startswith(
-        f"{PLACE} was computed for another mass, specific_impulse; store it with perilune design bound"
+        f"{PLACE} was computed for another mass, specific_impulse; store the bound with perilune design bound"
     )
     write_bound(
         replace(BOUND, inputs=INPUTS | {"more.altitude": 1.0}, sha256=digest(INPUTS | {"more.altitude": 1.0})), place
     )
     assert find_bound(prepared(place)).reason.startswith(
-        f"{PLACE} was computed for another more.altitude; store it with perilune design bound"
+        f"{PLACE} was computed for another more.altitude; store the bound with perilune design bound"
     )
 
 
@@ -189,7 +189,7 @@ def test_no_bound(tmp_path, content, words):
     ("roles", "words"),
     [
         ({"mass": None}, r"Bound \(line \d+\): no mass; write mass="),
-        ({"mass": "plant.weight"}, "plant.weight: no such parameter; name one as COMPONENT.VARIABLE"),
+        ({"mass": "plant.weight"}, "plant.weight: no such parameter; name a parameter as COMPONENT.VARIABLE"),
         ({"mass": "nobody.mass"}, "nobody.mass: no such parameter"),
         ({"speed": "3"}, "unknown attribute speed"),
         ({"start": "none.ssv"}, "no none.ssv in the system"),

@@ -88,7 +88,9 @@ def mine(tmp_path):
 
 def test_stored_and_looked_up(mine, capsys):
     call = ["design", "bounds", "lunar_landing", "--campaign", str(mine), "--intervals", "12", "--workers", "1"]
-    with pytest.raises(InputError, match=r"no file tables/mine.csv; write it again; perilune design bounds writes"):
+    with pytest.raises(
+        InputError, match=r"no file tables/mine.csv; write the table again; perilune design bounds writes"
+    ):
         perilune.batch("lunar_landing", mine, workers=1)
     assert main([*call, "--json", "-"]) == 0
     document = json.loads(capsys.readouterr().out)
@@ -129,7 +131,7 @@ def test_wrong_inputs(mine, text, words):
 
 
 def test_campaigns_without_bounds(tmp_path):
-    with pytest.raises(InputError, match=r"terminal_box.toml: lookup.bound: it does not declare"):
+    with pytest.raises(InputError, match=r"terminal_box.toml: lookup.bound: the campaign does not declare"):
         perilune.bound_trials("lunar_landing", "terminal_box", workers=1)
 
 

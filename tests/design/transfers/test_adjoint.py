@@ -165,5 +165,5 @@ def test_nodes_integrate_polynomials():
 
 
 def test_nothing_turns_straight_down():
-    with pytest.raises(InputError, match="nothing turns on the way straight down"):
+    with pytest.raises(InputError, match="a vertical descent, over 0 m, has no turn"):
         hover_study(VEHICLE, replace(TRANSFER, distance=0.0), optimum=True, adjoint=True, intervals=40)

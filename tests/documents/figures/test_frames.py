@@ -77,7 +77,7 @@ def test_a_scene_has_the_axes_of_its_frame(read):
 @pytest.mark.parametrize(
     ("attributes", "problem"),
     [
-        ('frame="landing site" axes="a b c"', "axes, which Frame landing site declares, too; leave axes out"),
+        ('frame="landing site" axes="a b c"', "Frame landing site also declares axes; leave out axes here"),
         ('frame="landing sight"', "frame landing sight: no such Frame; use one of landing site"),
     ],
 )

@@ -180,7 +180,7 @@ WRONG = {
     "phases of a Real": ('<Phases signal="plant.jet_seconds"/>', "Phases", "signal plant.jet_seconds is not Integer"),
     "two ways to tell a status": (
         f'<Phases signal="plant.status" status="plant.status" status_times="pulses.remainder">{ONE}</Phases>',
-        "Phases", "status and status_times; give one of them",
+        "Phases", "has both status and status_times; give one of the two",
     ),
     "times of a status that are none": (
         f'<Phases signal="plant.status" status_times="plant.angles">{ONE}</Phases>',
@@ -193,11 +193,11 @@ WRONG = {
         f'<Phases signal="plant.status">{ONE}<Phase value="2" name="a"/></Phases>', "Phase", "name a is there twice"
     ),
     "a part without an end": (
-        f'<Phases signal="plant.status">{ONE}<Phase value="1" name="b"/></Phases>', "Phase", "value 1: the Phase before"
+        f'<Phases signal="plant.status">{ONE}<Phase value="1" name="b"/></Phases>', "Phase", "the preceding Phase of"
     ),
     "a part that nothing follows": (
         '<Phases signal="plant.status"><Phase value="1" name="a" until="plant.status"/></Phases>',
-        "Phase", "no Phase of value 1 without until",
+        "Phase", "the last Phase of value 1 has until",
     ),
     "an unknown end": (
         '<Phases signal="plant.status"><Phase value="1" name="a" until="plant.done"/></Phases>',
@@ -234,7 +234,7 @@ WRONG = {
     ),
     "less twice": (
         '<Limits><Limit signal="plant.angles[1]" less="plant.angles[2]" about="0" most="1"/></Limits>',
-        "Limit", "about and less; give one of them",
+        "Limit", "has both about and less; give one of the two",
     ),
     "a limit in another unit": (
         f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, required is s"
@@ -246,7 +246,7 @@ WRONG = {
         f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, required is m"
     ),
     "unlike axes to one scale": (
-        f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave equal out"
+        f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave out equal"
     ),
     "neither true nor false": (f'<Path x="{SPACE}" y="{SPACE}" equal="yes"/>', "Path", "equal 'yes' is neither true"),
     "a point of another unit": (
@@ -256,8 +256,8 @@ WRONG = {
     "a point without name": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="{SPACE}"/></Path>', "Point", "no name"
     ),
-    "where without ends": (f'<Path x="{SPACE}" y="{SPACE}" where="plant.status"/>', "Path", "without from and to"),
-    "ends without where": (f'<Path x="{SPACE}" y="{SPACE}" to="3"/>', "Path", "to without where"),
+    "where without ends": (f'<Path x="{SPACE}" y="{SPACE}" where="plant.status"/>', "Path", "where needs from or to"),
+    "ends without where": (f'<Path x="{SPACE}" y="{SPACE}" to="3"/>', "Path", "to needs where"),
     "ends swapped": (
         f'<Path x="{SPACE}" y="{SPACE}" where="plant.status" from="3" to="2"/>', "Path", "from 3 is above to 2"
     ),
@@ -266,14 +266,14 @@ WRONG = {
         f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, required is rad"
     ),
     "labels of another number": (
-        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give as many"
+        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give one label"
     ),
     "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low 1 is not below high 0"),
-    "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 Phases before it"),
+    "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 preceding elements Phases"),
 }  # fmt: skip
 OF_PHASES = {
     "a budget of nothing": ("<Budget/>", "Budget", "no Item"),
-    "an item of nothing": ('<Budget><Item name="a"/></Budget>', "Item", "nothing to sum up"),
+    "an item of nothing": ('<Budget><Item name="a"/></Budget>', "Item", "has no terms"),
     "an unknown phase": (
         '<Budget><Item name="a" phases="first, next"/></Budget>', "Item",
         "phases next: no such phase; use one of first, last, then this",
@@ -309,7 +309,7 @@ def test_budgets_that_are_wrong_are_refused_with_their_line(folder, loaded, name
 def test_a_budget_needs_what_phases_use_up_and_a_bound_that_there_is(folder, loaded, monkeypatch):
     bare = PHASES.replace(' spent="plant.jet_seconds"', "")
     item = '<Budget><Item name="a" phases="last"/></Budget>'
-    refused(folder, loaded, bare, item, "Budget", "the Phases before it have no spent")
+    refused(folder, loaded, bare, item, "Budget", "the preceding Phases lacks the attribute spent")
     keep(monkeypatch, STORED)
     unknown = '<Budget><Item name="a" plus="landng"/></Budget>'
     refused(folder, loaded, PHASES, unknown, "Item", "landng: no such bound; use one of landing, braking, transfer")

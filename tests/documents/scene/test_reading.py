@@ -180,18 +180,18 @@ WRONG = {
         CAPSULE, body('angles="plant.height" sequence="z"'), "Body", "its unit is m, required is rad"
     ),
     "wind angles without a position": (
-        CAPSULE, body(WIND), "Body", "wind angles without longitude, latitude, height"
+        CAPSULE, body(WIND), "Body", "wind angles need longitude, latitude and height"
     ),
     "wind angles without a heading": (
         CAPSULE, SPHERE + body(f"{GEOGRAPHIC} {WIND}".partition("heading")[0]), "Body", "bank without heading"
     ),
-    "longitude without a sphere": (CAPSULE, body(GEOGRAPHIC), "Body", "longitude without a sphere"),
+    "longitude without a sphere": (CAPSULE, body(GEOGRAPHIC), "Body", "longitude needs a sphere"),
     "longitude alone": (
-        CAPSULE, body('longitude="plant.longitude"'), "Body", "it needs either position, or longitude, latitude, height"
+        CAPSULE, body('longitude="plant.longitude"'), "Body", "needs either position, or longitude, latitude, height"
     ),
-    "a sphere without radius": (ROBOT, '<Surface kind="sphere"/>', "Surface", "a sphere without radius"),
+    "a sphere without radius": (ROBOT, '<Surface kind="sphere"/>', "Surface", "a sphere needs a radius"),
     "a plane with a radius": (
-        ROBOT, '<Surface kind="plane" radius="robot.mass"/>', "Surface", "a plane with a radius"
+        ROBOT, '<Surface kind="plane" radius="robot.mass"/>', "Surface", "a plane has no radius"
     ),
     "no such radius": (
         ROBOT, '<Surface kind="sphere" radius="robot.radius"/>', "Surface", "radius robot.radius: no such parameter"
@@ -205,7 +205,7 @@ WRONG = {
     ),
     "jets of two kinds": (
         ROBOT, body("", f'<Jets forces="robot.impulse" pulses="robot.impulse">{JET}</Jets>'), "Jets",
-        "it needs either forces or pulses",
+        "needs either forces or pulses",
     ),
     "too few jets": (
         ROBOT, body("", f'<Jets forces="robot.jet_thrust">{JET}</Jets>'), "Jets",
@@ -216,13 +216,13 @@ WRONG = {
     ),
     "count without pulses": (
         ROBOT, body("", f'<Jets forces="robot.impulse" count="ranger.sample_count">{JET}</Jets>'), "Jets",
-        "count without pulses",
+        "count needs pulses",
     ),
     "a jet without a point": (
         ROBOT, body("", '<Jets forces="robot.impulse"><Jet along="0 0 1"/></Jets>'), "Jet", "no at"
     ),
     "a line from nowhere": (ROBOT, '<Line from="nobody" to="it"/>', "Line", "from nobody: no such Body or Site"),
-    "a line to no ground": (ROBOT, '<Line from="it" to="ground"/>', "Line", "to ground without a Surface"),
+    "a line to no ground": (ROBOT, '<Line from="it" to="ground"/>', "Line", "to ground needs a Surface"),
     "a site of another size": (
         ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, required are 3"
     ),
@@ -236,7 +236,7 @@ WRONG = {
     ),
     "an arrow in unknown axes": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="orbit"/>', "Arrow",
-        "frame orbit: no such Body; use one of it; leave it out for the axes of the scene",
+        "frame orbit: no such Body; use one of it; leave out frame for the axes of the scene",
     ),
     "an arrow in axes without attitude": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="it"/>', "Arrow",
@@ -250,7 +250,7 @@ WRONG = {
         ROBOT, '<Arrow name="a" from="it" signal="robot.position" colour="red"/>', "Arrow", "colour red is unknown"
     ),
     "a flat panel": (ROBOT, body("", '<Panel size="1 0 1"/>', "other"), "Panel", "size 1 0 1 is not positive"),
-    "a plane with a centre": (ROBOT, '<Surface kind="plane" centre="0 0 0"/>', "Surface", "a plane with a centre"),
+    "a plane with a centre": (ROBOT, '<Surface kind="plane" centre="0 0 0"/>', "Surface", "a plane has no centre"),
     "a name twice": (ROBOT, body(), "Body", "name it is there twice or reserved"),
     "a name that is reserved": (ROBOT, body(name="ground"), "Body", "name ground is there twice or reserved"),
 }  # fmt: skip
@@ -276,17 +276,21 @@ def test_everything_wrong_is_refused_with_its_line(read, tmp_path, name):
     [
         ('axes="x y"', (body(),), "axes has 2 names"),
         ('up="w"', (body(),), "up 'w' is not an axis"),
-        ('up="y"', ('<Surface kind="plane"/>', body()), "up y with a Surface, whose normal is z"),
-        ('frame="inertial"', (SPHERE, body(GEOGRAPHIC)), "frame, with longitude and latitude"),
+        ('up="y"', ('<Surface kind="plane"/>', body()), "up y cannot be combined with a Surface, whose normal is z"),
+        ('frame="inertial"', (SPHERE, body(GEOGRAPHIC)), "frame cannot be combined with longitude and latitude"),
         ("", (SPHERE, body(GEOGRAPHIC), body(name="other")), "positions of two kinds"),
         (
             "",
             (SPHERE, body(GEOGRAPHIC), '<Site name="x" position="plant.wind"/>'),
-            "a Site with longitude and latitude",
+            "a Site needs bodies with position, not longitude and latitude",
         ),
         ("", ('<Surface kind="plane"/>', '<Surface kind="plane"/>', body()), "a second Surface"),
         ("", (f"</Scene><Scene>{body()}",), "no Body"),
-        ("", (SPHERE.replace("/>", ' centre="0 0 0"/>'), body(GEOGRAPHIC)), "a centre, with longitude and latitude"),
+        (
+            "",
+            (SPHERE.replace("/>", ' centre="0 0 0"/>'), body(GEOGRAPHIC)),
+            "centre cannot be combined with longitude and latitude",
+        ),
         (
             "",
             (body('axis="plant.wind"'), '<Arrow name="a" from="it" signal="plant.wind" frame="it"/>'),

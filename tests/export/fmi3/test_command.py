@@ -107,16 +107,16 @@ def test_the_blocks_of_a_file_go_to_a_folder_of_their_own(capsys: pytest.Capture
         ),
         (
             ["jet_health", "--fmi", "3", "--flavour", "python"],
-            "--flavour: python: Python FMUs are of FMI 2.0; leave it out, or leave out --fmi",
+            "--flavour: python: Python FMUs are FMI 2.0 FMUs; leave out --flavour or --fmi",
         ),
         (
             ["lunar_terminal_guidance", "--fmi", "3", "--ssp", "1"],
-            "--ssp: 1: FMUs of FMI 3.0 have arrays, which SSP 1.0 does not support; give 2, or leave out --fmi",
+            "--ssp: 1: FMI 3.0 FMUs have arrays, which SSP 1.0 does not support; give 2, or leave out --fmi",
         ),
         (["jet_health", "--fmi", "1"], "--fmi: 1: below 2; give 2 or more"),
         (
             ["library", "--fmi", "3", "--platform", LOCAL],
-            f"--platform: {LOCAL}: library: needs Python and has no native form; leave it out",
+            f"--platform: {LOCAL}: library: needs Python and has no native form; leave out --platform",
         ),
         (
             ["library", "--fmi", "3"],

@@ -237,7 +237,7 @@ def test_a_variable_time_is_refused() -> None:
         def step(self, t: float, h: float) -> None:
             self.time = t
 
-    with pytest.raises(ValueError, match=r"Clock\.time: a variable time, which is the independent one of FMI 3\.0"):
+    with pytest.raises(ValueError, match=r"Clock\.time: is reserved for FMI 3\.0's independent variable"):
         fmi3.model_description(Clock, token="", origin={})
 
 

@@ -143,7 +143,9 @@ def test_candidates_of_different_steps(make, tiny_folder, tmp_path):
     build_own_blocks(file, tmp_path / "fmus", ["native"], [local_platform()])
     path = make(component("c", "ramp", RAMP), step=None)
     slots = {"c": [str(tiny_folder / "native" / "ramp.fmu"), str(tmp_path / "fmus" / "native" / "slow.fmu")]}
-    problem = re.escape("slots: c: their systems differ in times, with steps of 0.1 s, 0.5 s; give step and stop_time")
+    problem = re.escape(
+        "slots: c: the candidates' systems differ in times, with steps of 0.1 s, 0.5 s; give step and stop_time"
+    )
     with pytest.raises(InputError, match=problem):
         build_one(tmp_path / "one.fmu", path, slots, exposed=["c.y"])
 

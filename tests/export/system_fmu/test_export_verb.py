@@ -82,7 +82,7 @@ def test_a_second_build_is_the_same(exported, folder):
 
 
 WRONG = {
-    ("--slot", SLOTS): "--slot: guidance: applies only to a system as one FMU; give --as-fmu, or leave it out",
+    ("--slot", SLOTS): "--slot: guidance: applies only to a system as one FMU; give --as-fmu, or leave out this option",
     (
         "--set",
         "plant.initial_mass=900",
@@ -91,8 +91,8 @@ WRONG = {
         "--as-fmu",
         "--fmi",
         "3",
-    ): "--fmi: 3: a system as one FMU needs native FMUs, and is an FMU of FMI 2.0; leave it out",
-    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system as one FMU needs native FMUs",
+    ): "--fmi: 3: a system as one FMU is an FMI 2.0 FMU made of native FMUs; leave out --fmi",
+    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system as one FMU is an FMI 2.0 FMU",
     ("--as-fmu", "--ssp", "2"): "--ssp: 2: a system as one FMU",
     ("--as-fmu", "--study", "all"): "--study: all: a system as one FMU cannot contain reports",
     ("--as-fmu", "--output", "x.ssp"): "--output: x.ssp",
@@ -104,7 +104,7 @@ WRONG = {
     ): "--expose: plant.gravity: a parameter, which is always a parameter of the FMU",
     ("--as-fmu", "--faults", "plant.gravit"): "--faults: plant.gravit: no such connector of a component",
     ("--as-fmu", "--faults", "plant.initial_mass"): (
-        "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start, --set"
+        "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start by --set"
     ),
     ("--as-fmu", "--slot", "pilot=analytic_guidance"): "--slot: pilot: no such component; use one of",
     ("--as-fmu", "--slot", "guidance=analytic_guidance,"): "--slot: guidance=analytic_guidance,: an empty name",
@@ -112,7 +112,7 @@ WRONG = {
         "--as-fmu",
         "--slot",
         "guidance=astar_guidance,astar_guidance",
-    ): "two candidates have one name; give each once",
+    ): "two candidates have one name; give each candidate once",
     ("--as-fmu", "--slot", "guidance=astar"): "--slot: guidance=astar: no such FMU is built",
     ("--as-fmu", "--slot", SLOTS, "--use", "guidance=astar_robust_guidance"): "which is not among the candidates",
 }

@@ -160,8 +160,8 @@ def test_of_a_parameter_that_the_system_gives(tiny_folder: Path, tmp_path: Path)
 
 
 REFUSED = {
-    "start": "a parameter that is fixed after initialisation; set it before the start, set ramp.start=VALUE, or",
-    "first_count": "a parameter that is fixed after initialisation; set it before the start, set ramp.first_count=",
+    "start": "a parameter that is fixed after initialisation; set it before the start by set ramp.start=VALUE, or",
+    "first_count": "a parameter that is fixed after initialisation; set it before the start by set ramp.first_count=",
 }
 
 

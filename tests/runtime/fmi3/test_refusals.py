@@ -33,11 +33,11 @@ DESCRIPTIONS = {
             "</ModelVariables>",
             '<Clock name="tick" valueReference="99" intervalVariability="triggered"/></ModelVariables>',
         ),
-        r"tick \(line \d+\): a Clock: FMUs with clocks are not supported; export it without clocks",
+        r"tick \(line \d+\): a Clock: FMUs with clocks are not supported; export the FMU without clocks",
     ),
     "model exchange": (
         changed("<CoSimulation[^>]*/>", '<ModelExchange modelIdentifier="Strict"/>'),
-        "CoSimulation: not a co-simulation FMU: ModelExchange only; export it for co-simulation",
+        "CoSimulation: not a co-simulation FMU: ModelExchange only; export the FMU for co-simulation",
     ),
     "no type": (changed("<Int8 name=", "<Int9 name="), r"small \(line \d+\): Int9 is not a type of FMI 3.0; fix"),
     "no name": (changed(' name="early"', ""), r"Float64 \(line \d+\): no attribute name; fix"),
@@ -54,7 +54,7 @@ DESCRIPTIONS = {
     "huge": (changed('start="2" min="0" max="4"', 'start="2000000"'), "Dimension: its arrays have 8000004 elements"),
     "dimension": (
         changed('<Dimension valueReference="1"/>', '<Dimension valueReference="8"/>'),
-        r"Dimension \(line \d+\): neither a start nor a structural parameter",
+        r"Dimension \(line \d+\): has neither a start nor a structural parameter",
     ),
     "dependency": (changed('dependencies=""', 'dependencies="1000"'), "dependencies: 1000 is not a value reference"),
     "step": (changed('stepSize="0.25"', 'stepSize="soon"'), "stepSize: 'soon' is not a number"),
@@ -72,13 +72,15 @@ def test_descriptions(tmp_path, case):
 def test_scheduled_execution(tmp_path):
     binary = f"binaries/{fmpy.platform_tuple}/Clocks{fmpy.sharedLibraryExtension}"
     path = write_zip(tmp_path / "Clocks.fmu", {"modelDescription.xml": CLOCKS, binary: b"a library"})
-    refused("CoSimulation: not a co-simulation FMU: ScheduledExecution only; export it for co-simulation", str(path))
+    refused(
+        "CoSimulation: not a co-simulation FMU: ScheduledExecution only; export the FMU for co-simulation", str(path)
+    )
 
 
 def test_binary_for_another_platform(tmp_path):
     path = strict_fmu(tmp_path)
     other = retouched(path, tmp_path / "other.fmu", changed('modelIdentifier="Strict"', 'modelIdentifier="Other"'))
-    refused(rf"binaries/{fmpy.platform_tuple}/Other.*: no binary for this platform; export it for", str(other))
+    refused(rf"binaries/{fmpy.platform_tuple}/Other.*: no binary for this platform; export the FMU for", str(other))
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,8 @@ def test_another_size_than_the_fmu_has_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"one\.gain \(line \d+\): has 3 elements in .*, 2 here"):
         perilune.simulate(str(pack(tmp_path / "s.ssp", tmp_path, written("2", given_gains()))))
     with pytest.raises(
-        InputError, match=r"in, Dimension \(line \d+\): m is 2\.5, which is not a valid size; give it a value"
+        InputError,
+        match=r"in, Dimension \(line \d+\): m is 2\.5, which is not a valid size; give this parameter a value",
     ):
         perilune.simulate(str(pack(tmp_path / "t.ssp", tmp_path, written("n", outer="m=Float64:2.5"))))
 
@@ -135,7 +136,7 @@ def test_an_array_without_dimensions_is_refused(tmp_path):
     strict_fmu(tmp_path)
     path = pack(tmp_path / "s.ssp", tmp_path, document(system(component("one", "strict", "input u Real"))))
     with pytest.raises(
-        InputError, match=r"one\.u \(line \d+\): is an array in .*, a scalar here; give it its Dimensions"
+        InputError, match=r"one\.u \(line \d+\): is an array in .*, a scalar here; give the connector its Dimensions"
     ):
         perilune.simulate(str(path))
 

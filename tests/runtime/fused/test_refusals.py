@@ -40,7 +40,9 @@ def test_a_system_of_python_fmus(tiny_folder, tmp_path, refusal):
 
 
 def test_c_of_another_build():
-    with pytest.raises(InputError, match=r"^x\.fmu: sources: its C code has another interface .*; export it again"):
+    with pytest.raises(
+        InputError, match=r"^x\.fmu: sources: its C code has another interface .*; export the FMU again"
+    ):
         component_code({"ramp.c": "int main(void) { return 0; }"}, "ramp", "k0_", "x.fmu")
     with pytest.raises(InputError, match=r"^x\.fmu: sources/fmi2_types\.h: is missing"):
         component_code({"ramp.c": '#include "fmi2_wrapper.h"\n'}, "ramp", "k0_", "x.fmu")
@@ -65,7 +67,10 @@ def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path,
     ("change", "refusal"),
     [
         ({"MOST_INSTRUCTIONS": 1}, "the steps repeat after 1 communication steps only, too many for one function"),
-        ({"FLAGS": ("--no-such-flag",)}, r"the compiler refuses its C: .*error.*no-such-flag.*; simulate it native$"),
+        (
+            {"FLAGS": ("--no-such-flag",)},
+            r"the compiler refuses its C: .*error.*no-such-flag.*; give flavour native$",
+        ),
     ],
 )
 def test_what_would_not_be_compiled(tiny_folder, tmp_path, monkeypatch, change, refusal):

@@ -92,7 +92,7 @@ def test_a_library_that_is_none(tmp_path, monkeypatch):
     file = built_file(tmp_path, local_platform(3) or "")
     file.parent.mkdir(parents=True)
     file.write_bytes(b"no library")
-    with pytest.raises(InputError, match=r"is not a library: .*; build or install it again"):
+    with pytest.raises(InputError, match=r"is not a library: .*; build or install Perilune again"):
         library.load_library.__wrapped__()
 
 

@@ -96,7 +96,7 @@ def test_open_inputs_of_an_fmu_alone_are_refused_by_choice(tmp_path, capsys):
     for verb in ("run", "validate"):
         assert main([verb, path, "--open-inputs", "refuse"]) == 2
     lines = capsys.readouterr().err.splitlines()
-    remedy = "drive it by --input, give a value: --set odd.u=VALUE, or --open-inputs start"
+    remedy = "drive the input by --input, give a value: --set odd.u=VALUE, or --open-inputs start"
     assert lines[0] == f"perilune: {path}: odd.u: input is neither connected nor given a value; {remedy}"
     assert lines[1].startswith(f"perilune: {path}: odd.u: input is neither connected nor given a value; ")
     assert main(["run", path, "--stop-time", "0.5", "--open-inputs", "refuse", "--set", "odd.u=1"]) == 0
@@ -128,7 +128,7 @@ def test_what_does_not_fly(tiny_folder, tmp_path, change, expected):
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ({"variant": "other"}, "variant: an FMU alone has no variants; leave it out"),
+        ({"variant": "other"}, "variant: an FMU alone has no variants; leave out variant"),
         ({"set": {"gain.facto": 1}}, "use one of gain.factor, gain.u"),
         ({"set": {"factor": 1}}, "use one of gain.factor, gain.u"),
         ({"parameters": ("x.ssv",)}, "no x.ssv in the system, nor a file of this name"),

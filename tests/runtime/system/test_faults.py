@@ -76,7 +76,7 @@ FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
         ("a.b=melt@2", "unknown kind melt"),
         ("a.b=bias@2", "bias lacks its value; write bias:VALUE"),
         ("a.b=override@2", "override lacks its value; write override:VALUE"),
-        ("a.b=freeze:0@2", "a freeze has no value; omit it"),
+        ("a.b=freeze:0@2", "a freeze has no value; omit the value"),
         ("a.b=bias:x@2", f"not a number: 'x'; write {FORM}, times in s"),
         ("a.b=bias:1@x", "not a number: 'x'"),
         ("a.b=bias:1@1..x", "not a number: 'x'"),
@@ -139,7 +139,10 @@ def test_what_a_system_can_have(network, text):
         ),
         ("ramp.start=bias:1@1", "ramp.start: a parameter that is fixed after initialisation; set it before the start"),
         ("inner.u=bias:1@1", "inner.u: no such connector of a component"),  # it is a system's: nothing happens there
-        ("free.u=bias:1@1", "free.u: an input that nothing is connected to; give it a value with set free.u=VALUE"),
+        (
+            "free.u=bias:1@1",
+            "free.u: an input that nothing is connected to; give the input a value with set free.u=VALUE",
+        ),
         ("ramp.y=override:true@1", "ramp.y: true is not of type Real; give a number"),
         ("ramp.count=override:true@1", "ramp.count: true is not of type Integer"),
         ("ramp.count=bias:0.5@1", "ramp.count: 0.5 is not of type Integer; give a whole number of 32 bits"),

@@ -138,17 +138,21 @@ def test_an_fmu_alone_keeps_the_order_of_fmpy(undeclared):
 
 def test_refusals(undeclared):
     path = chain(undeclared)
-    with pytest.raises(InputError, match=r"feedthrough: gain: is also given to no_feedthrough; give it to one"):
+    with pytest.raises(
+        InputError, match=r"feedthrough: gain: is also given to no_feedthrough; give the component to only one"
+    ):
         prepare_system(path, SystemOptions(feedthrough=("gain",), no_feedthrough=("gain",)))
     with pytest.raises(InputError, match=r"feedthrough: nobody: no such component; use one of delay, gain, ramp"):
         prepare_system(path, SystemOptions(feedthrough=("nobody",)))
     with pytest.raises(InputError, match=r"Feedthrough \(line 6\): direct is 'maybe'; write direct=\"true\" or"):
         prepare_system(chain(undeclared, extra=says("maybe"), name="wrong"))
     double = says("true").replace("</ssd:Annotations>", says("true").removeprefix("<ssd:Annotations>"))
-    with pytest.raises(InputError, match=r"a second annotation of type org\.perilune\.feedthrough; write one"):
+    with pytest.raises(InputError, match=r"a second annotation of type org\.perilune\.feedthrough; write only one"):
         prepare_system(chain(undeclared, extra=double, name="twice"))
     misplaced = document(system(RAMP, extra=says("true")))
-    with pytest.raises(InputError, match=r"org\.perilune\.feedthrough in a System; write it into a Component"):
+    with pytest.raises(
+        InputError, match=r"org\.perilune\.feedthrough is not for a System; move the annotation into a Component"
+    ):
         prepare_system(pack(undeclared / "misplaced.ssp", undeclared, misplaced))
 
 

@@ -101,7 +101,9 @@ def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
         with pytest.raises(InputError, match=r"mode\.n: no item 3 in the enumeration; use one of brake, hover, idle"):
             fly(path, set={"mode.n": 3})
     mode = component("mode", "mode", declared, inline("n=Real:7"))
-    with pytest.raises(InputError, match="is Real, the variable is Enumeration; give an Enumeration"):
+    with pytest.raises(
+        InputError, match="the value is of type Real, but the variable is of type Enumeration; give an Enumeration"
+    ):
         fly(pack(tmp_path / "s.ssp", tiny, document(system(mode), more=more)))
 
 

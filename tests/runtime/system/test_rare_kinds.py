@@ -107,7 +107,7 @@ def test_a_parameter_with_a_unit_is_converted_on_its_way(array_fmus, tmp_path):
         (
             [COUNTED],
             {"declared": "parameter p Integer", "connections": connection("p", "counted.n")},
-            r"connection p -> counted\.n \(line \d+\): p has no value; give it a value in a parameter set",
+            r"connection p -> counted\.n \(line \d+\): p has no value; give p a value in a parameter set",
         ),
         (
             [component("three", "three", "local count Integer"), SETTABLE],

@@ -217,11 +217,11 @@ def test_what_is_worse_than_what():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"metric": "position"}, "metric: does not go with loop; give one of them"),
-        ({"compare": {"control": "x"}}, "compare: does not go with loop; choose by use"),
-        ({"timeout": 3.0}, "timeout: does not go with loop"),
-        ({"loop": None, "point": "there"}, "point: there: it needs loop; give loop"),
-        ({"loop": None, "at": 3.0}, "at: 3.0: it needs loop"),
+        ({"metric": "position"}, "metric: cannot be combined with loop; give one of them"),
+        ({"compare": {"control": "x"}}, "compare: cannot be combined with loop; choose by use"),
+        ({"timeout": 3.0}, "timeout: cannot be combined with loop"),
+        ({"loop": None, "point": "there"}, "point: there: needs loop; give loop"),
+        ({"loop": None, "at": 3.0}, "at: 3.0: needs loop"),
         ({"loop": "lop"}, "loops: lop: the SSD declares no such loop"),
         ({"point": "here"}, "point: here: loop has no such point; give there"),
         ({"margin": "nyquist"}, "margin: nyquist: no such choice"),

@@ -33,7 +33,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
     for option, value in (("`workers`", workers), ("`engine`", engine)):
         if value is not None:
             problem = "the cluster's workers simulate, each with its own number of threads"
-            raise InputError(option, str(value), problem, f"leave it or {OPTION} out")
+            raise InputError(option, str(value), problem, f"leave out {option} or {OPTION}")
     distributed = _import_distributed()
     with _quiet(), _client(distributed, address) as client:
         _look_at_workers(client, address)
@@ -71,7 +71,7 @@ def _client(distributed: Any, address: str) -> Iterator[Any]:
         except (OSError, ValueError, TypeError) as error:
             problem = "no dask scheduler answers at this address"
             raise InputError(
-                OPTION, address, problem, "start one with dask scheduler, and give its tcp://HOST:PORT"
+                OPTION, address, problem, "start a scheduler with dask scheduler, and give its address, tcp://HOST:PORT"
             ) from error
         with client:
             yield client
@@ -83,7 +83,7 @@ def _look_at_workers(client: Any, address: str) -> None:
         client.wait_for_workers(1, timeout=FIRST_WORKER)
     except TimeoutError as error:
         problem = f"no worker has connected within {FIRST_WORKER:g} s"
-        raise InputError(OPTION, address, problem, f"start one with dask worker {address}") from error
+        raise InputError(OPTION, address, problem, f"start a worker with dask worker {address}") from error
     ours = identity()
     for worker, theirs in sorted(client.run(identity, on_error="return").items()):
         refuse_others(ours, theirs, worker)

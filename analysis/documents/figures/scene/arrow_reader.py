@@ -46,7 +46,7 @@ def _read_frame(reader: SignalReader, element: etree._Element, bodies: Sequence[
     if body is None:
         names = [each.name for each in bodies]
         problem = f"frame {name}: no such Body"
-        raise reader.refuse(element, problem, f"{suggestion(name, names)}; leave it out for the axes of the scene")
+        raise reader.refuse(element, problem, f"{suggestion(name, names)}; leave out frame for the axes of the scene")
     if body.attitude is None or isinstance(body.attitude, ThrustAxis):
         reason = "no attitude" if body.attitude is None else "an axis alone, whose roll is unknown"
         raise reader.refuse(element, f"frame {name}: this Body has {reason}", "name a Body with an attitude")

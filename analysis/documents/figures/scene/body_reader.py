@@ -74,9 +74,9 @@ def _position(reader: SignalReader, element: etree._Element, surface: Surface | 
     if not named:
         return Cartesian(read_signal(reader, element, "position", 3, METRE)) if "position" in element.attrib else None
     if "position" in element.attrib or len(named) < len(GEOGRAPHIC):
-        raise reader.refuse(element, "it needs either position, or longitude, latitude, height", "give one of the two")
+        raise reader.refuse(element, "needs either position, or longitude, latitude, height", "give one of the two")
     if surface is None or surface.radius is None:
-        raise reader.refuse(element, "longitude without a sphere", 'add <Surface kind="sphere" radius="..."/>')
+        raise reader.refuse(element, "longitude needs a sphere", 'add <Surface kind="sphere" radius="..."/>')
     longitude, latitude = (reader.scalar(element, name, unit=RADIAN) for name in GEOGRAPHIC[:2])
     return Geographic(longitude, latitude, reader.scalar(element, "height", unit=METRE))
 
@@ -90,7 +90,7 @@ def _attitude(reader: SignalReader, element: etree._Element, position: Position 
         raise reader.refuse(element, f"attitudes of two kinds, {forms}", "give one of them")
     for name in declared[0]:
         if name not in element.attrib:
-            raise reader.refuse(element, f"{declared[0][0]} without {name}", f'write {name}="..." too')
+            raise reader.refuse(element, f"{declared[0][0]} without {name}", f'also write {name}="..."')
     match declared[0][0]:
         case "quaternion":
             return Quaternion(read_signal(reader, element, "quaternion", 4))
@@ -100,7 +100,7 @@ def _attitude(reader: SignalReader, element: etree._Element, position: Position 
             return ThrustAxis(read_signal(reader, element, "axis", 3))
     if not isinstance(position, Geographic):
         raise reader.refuse(
-            element, "wind angles without longitude, latitude, height", "give them, or another attitude"
+            element, "wind angles need longitude, latitude and height", "give these three, or another attitude"
         )
     return WindAngles(*(reader.scalar(element, name, unit=RADIAN) for name in WIND))
 
@@ -114,7 +114,7 @@ def _angles(reader: SignalReader, element: etree._Element) -> Angles:
         return Angles((read_signal(reader, element, "angles", len(sequence), RADIAN),), sequence)
     if len(names) != len(sequence):
         problem = f"angles has {len(names)} signals, sequence {len(sequence)} axes"
-        raise reader.refuse(element, problem, "give as many, in the order of the turns")
+        raise reader.refuse(element, problem, "give one signal for each axis, in the order of the rotations")
     signals = (reader.find_signal(element, "angles", name) for name in names)
     return Angles(
         tuple(reader.convert_limits(element, f"angles {signal.label}", signal, RADIAN) for signal in signals), sequence
@@ -130,10 +130,10 @@ def _thrust(reader: SignalReader, element: etree._Element) -> Thrust:
 def _jets(reader: SignalReader, element: etree._Element) -> Jets:
     attributes = reader.attributes(element, (), JETS)
     if ("forces" in attributes) == ("pulses" in attributes):
-        raise reader.refuse(element, "it needs either forces or pulses", "give one of the two")
+        raise reader.refuse(element, "needs either forces or pulses", "give one of the two")
     pulses = "pulses" in attributes
     if "count" in attributes and not pulses:
-        raise reader.refuse(element, "count without pulses", "leave it out")
+        raise reader.refuse(element, "count needs pulses", "leave out count")
     signal = reader.signal(element, "pulses", unit=SECOND) if pulses else reader.signal(element, "forces")
     nozzles = reader.parts(element, ("Jet",))["Jet"]
     reader.check_size(element, f"it has {len(nozzles)} Jet", len(nozzles), signal)

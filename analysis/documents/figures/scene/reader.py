@@ -31,11 +31,11 @@ def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
     reader.attributes(element, (), SCENE)
     children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))
     if any(tag(item) == tag(element) for item in element.itersiblings(preceding=True)):
-        raise reader.refuse(element, "a second Scene", "write one")
+        raise reader.refuse(element, "a second Scene", "write only one")
     if not children["Body"]:
         raise reader.refuse(element, "no Body", 'write <Body name="..." shape="box" size="1 1 1"/>')
     if len(children["Surface"]) > 1:
-        raise reader.refuse(children["Surface"][1], "a second Surface", "write one")
+        raise reader.refuse(children["Surface"][1], "a second Surface", "write only one")
     surface = _surface(reader, children["Surface"][0]) if children["Surface"] else None
     bodies = tuple(read_body(reader, item, surface) for item in children["Body"])
     local = isinstance(bodies[0].position, Geographic)
@@ -43,13 +43,15 @@ def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
         if isinstance(body.position, Geographic) != local:
             raise reader.refuse(item, "positions of two kinds", "give all bodies longitude, latitude, height, or none")
     if local and children["Surface"] and "centre" in children["Surface"][0].attrib:
-        raise reader.refuse(children["Surface"][0], "a centre, with longitude and latitude", "leave centre out")
+        raise reader.refuse(
+            children["Surface"][0], "centre cannot be combined with longitude and latitude", "leave out centre"
+        )
     sites = read_available(reader, children["Site"], lambda item: _site(reader, item, local))
     named = [*children["Body"], *children["Site"]]
     names = [item.get("name", "").strip() for item in named]
     for index, name in enumerate(names):
         if name in names[:index] or name == GROUND:
-            raise reader.refuse(named[index], f"name {name} is there twice or reserved", "choose another")
+            raise reader.refuse(named[index], f"name {name} is there twice or reserved", "choose another name")
     available = [*(body.name for body in bodies), *(site.name for site in sites)]
     lines = read_available(reader, children["Line"], lambda item: _line(reader, item, names, available, surface))
     starts = {name: name in available for name in names}
@@ -77,9 +79,9 @@ def _axes(
     axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
     for name in ("frame", "axes"):
         if local and name in element.attrib:
-            raise reader.refuse(element, f"{name}, with longitude and latitude", f"leave {name} out: east, north, up")
+            raise reader.refuse(element, f"{name} cannot be combined with longitude and latitude", f"leave out {name}")
     if frame in frames and "axes" in element.attrib:
-        raise reader.refuse(element, f"axes, which Frame {frame} declares, too", "leave axes out")
+        raise reader.refuse(element, f"Frame {frame} also declares axes", "leave out axes here")
     if frame and frames and frame not in frames and "axes" not in element.attrib:
         raise reader.refuse(element, f"frame {frame}: no such Frame", suggestion(frame, frames))
     axes = frames.get(frame, axes)
@@ -88,7 +90,7 @@ def _axes(
     if up not in ("x", "y", "z"):
         raise reader.refuse(element, f"up {up!r} is not an axis", "write x, y or z")
     if up != "z" and surface is not None:
-        raise reader.refuse(element, f"up {up} with a Surface, whose normal is z", "leave up out")
+        raise reader.refuse(element, f"up {up} cannot be combined with a Surface, whose normal is z", "leave out up")
     return LOCAL_AXES if local else axes, up
 
 
@@ -100,10 +102,12 @@ def _surface(reader: SignalReader, element: etree._Element) -> Surface:
     if attributes["kind"] == "plane":
         for attribute in SPHERE[:2]:
             if attribute in attributes:
-                raise reader.refuse(element, f"a plane with a {attribute}", "leave it out, or write sphere")
+                raise reader.refuse(
+                    element, f"a plane has no {attribute}", f'leave out {attribute}, or write kind="sphere"'
+                )
         return Surface(name, None, None)
     if "radius" not in attributes:
-        raise reader.refuse(element, "a sphere without radius", 'write radius="COMPONENT.VARIABLE"')
+        raise reader.refuse(element, "a sphere needs a radius", 'write radius="COMPONENT.VARIABLE"')
     radius = reader.parameter(element, "radius")
     if not radius > 0.0:
         raise reader.refuse(element, f"radius {attributes['radius']} is {radius:g}", "name the radius of the ground")
@@ -113,7 +117,7 @@ def _surface(reader: SignalReader, element: etree._Element) -> Surface:
 def _site(reader: SignalReader, element: etree._Element, local: bool) -> Site:
     name = reader.attributes(element, ("name", "position"))["name"]
     if local:
-        raise reader.refuse(element, "a Site with longitude and latitude", "leave it out")
+        raise reader.refuse(element, "a Site needs bodies with position, not longitude and latitude", "remove the Site")
     position = element.get("position", "").strip()
     if position.startswith(tuple("+-.0123456789")):
         return Site(name, read_vector(reader, element, "position"))
@@ -141,7 +145,7 @@ def _line(
     attributes = reader.attributes(element, ("from", "to"), ("name", "while"))
     start, end = attributes["from"], attributes["to"]
     if end == GROUND and surface is None:
-        raise reader.refuse(element, "to ground without a Surface", 'add <Surface kind="plane"/>')
+        raise reader.refuse(element, "to ground needs a Surface", 'add <Surface kind="plane"/>')
     for attribute, name in (("from", start), ("to", end)):
         if name not in names and not (attribute == "to" and name == GROUND):
             raise reader.refuse(element, f"{attribute} {name}: no such Body or Site", suggestion(name, names))

@@ -80,8 +80,13 @@ class TransferPlacing:
             if is_set:
                 start = slots.settings.variables.get((component, variable.name), variable.start)
                 if start is None and not self._exchanged.is_set(name):
-                    problem = "has neither a connection, a value nor a start, and its array is given as a whole"
-                    raise InputError(self._network.file, name, problem, f"connect it, or give `set` {name}=VALUE")
+                    problem = (
+                        "has no connection, value or start, although other elements of its array do, "
+                        "and FMI 3.0 sets arrays whole"
+                    )
+                    raise InputError(
+                        self._network.file, name, problem, f"connect this element, or give `set` {name}=VALUE"
+                    )
                 initial = slots.start(component, variable)
                 if variable.representation.is_wide and start is not None:
                     slots.exact[number] = int(start)

@@ -73,7 +73,7 @@ class TextSlots:
             ) from None
         if len(content) >= self.longest:
             kind = "a binary value" if self._is_binary else "a string"
-            raise InputError(self._file, name, f"{kind} of {self.longest} bytes or more", "shorten it")
+            raise InputError(self._file, name, f"{kind} of {self.longest} bytes or more", "give a shorter value")
         self.slots[name] = len(self._references)
         self._references.append(reference)
         self._initial.append(content)

@@ -54,7 +54,7 @@ class TransformedSum:
     def _check(self, points: list[Point]) -> list[Point]:
         if len(points) != self.dimension:
             problem = f"{len(points)} variables for a signal of {self.dimension} of {self.name}"
-            raise FunctionError(problem, "connect as many variables")
+            raise FunctionError(problem, "connect one variable for each element of the signal")
         return points
 
 
@@ -78,11 +78,13 @@ def _number(element: etree._Element, attribute: str, default: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise FunctionError(f"{attribute} {text!r} is not a number", "write one") from None
+        raise FunctionError(f"{attribute} {text!r} is not a number", "write a number") from None
 
 
 def _count(element: etree._Element, attribute: str) -> int:
     text = element.get(attribute, "1")
     if not (text.isascii() and text.isdigit() and 0 < len(text) < 6 and 0 < int(text) <= MOST_INPUTS):
-        raise FunctionError(f"{attribute} {text!r} is not a number from 1 to {MOST_INPUTS}", "write one")
+        raise FunctionError(
+            f"{attribute} {text!r} is not a number from 1 to {MOST_INPUTS}", "write a number in this range"
+        )
     return int(text)

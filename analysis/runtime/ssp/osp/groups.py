@@ -34,7 +34,7 @@ def _variable(element: etree._Element, file: str) -> str:
     ref = element.get("ref")
     if ref is None:
         where = f"Variable (line {element.sourceline})"
-        raise InputError(file, where, "has no ref, the name of the FMU's variable", "write ref")
+        raise InputError(file, where, "has no ref, the name of the FMU's variable", 'write ref="..."')
     return ref
 
 

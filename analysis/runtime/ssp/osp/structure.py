@@ -88,7 +88,7 @@ class _StructureReader:
         try:
             return float(text)
         except ValueError:
-            raise self.refuse(element, f"content {text!r} is not a number", "write one") from None
+            raise self.refuse(element, f"content {text!r} is not a number", "write a number") from None
 
     def base_step(self, element: etree._Element) -> float:
         where, remedy = f"{tag(element)} (line {element.sourceline})", "write a number such as 0.1"
@@ -120,7 +120,7 @@ class _StructureReader:
         inside = etree.SubElement(parameters, f"{ssv}Parameters")
         for value in values:
             if len(value) != 1:
-                raise self.refuse(value, f"{len(value)} values", "give one")
+                raise self.refuse(value, f"{len(value)} values", "give one value")
             parameter = etree.SubElement(inside, f"{ssv}Parameter", name=value.get("variable", ""))
             etree.SubElement(parameter, f"{ssv}{tag(value[0])}", value=value[0].get("value", ""))
             for element in parameter.iter():

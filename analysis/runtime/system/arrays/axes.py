@@ -55,7 +55,7 @@ class FrameReader(AnnotationReader):
         name = self.attributes(element, ("name", "axes"), ("signals",))["name"]
         axes = self.names(element, "axes")
         if name in self.network.frames:
-            raise self.refuse(element, f"a second Frame {name}", "write one")
+            raise self.refuse(element, f"a second Frame {name}", "write only one")
         if len(axes) not in DIMENSIONS:
             raise self.refuse(element, f"axes has {len(axes)} names", "write one for each axis, 2 or 3")
         self.network.frames[name] = axes
@@ -99,7 +99,7 @@ class FrameReader(AnnotationReader):
             problem = (
                 f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
             )
-            raise self.refuse(element, problem, "write as many names")
+            raise self.refuse(element, problem, "write one name for each element")
 
 
 def one_dimensional(name: str, known: Collection[str]) -> list[str]:

@@ -71,7 +71,7 @@ class Sizes:
         connector = owner.connectors.get(name)
         if connector is None or connector.kind not in SIZES or connector.dimensions:
             problem = f"sizeConnector {name} is neither a structural parameter nor a constant of {owner.name}"
-            raise InputError(self.description.file, where, problem, "correct it, or write size")
+            raise InputError(self.description.file, where, problem, "correct sizeConnector, or write size")
         full = path + name
         chain = self._chain(full)
         assigned = self._find_assigned(chain) if connector.kind == "structuralParameter" else None
@@ -126,7 +126,7 @@ class Sizes:
             size = -1
         if size < 0:
             problem = f"{name} has no value" if value is None else f"{name} is {value}, which is not a valid size"
-            raise InputError(self.description.file, where, problem, "give it a value in a parameter set")
+            raise InputError(self.description.file, where, problem, "give this parameter a value in a parameter set")
         return size
 
 

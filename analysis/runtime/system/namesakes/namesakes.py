@@ -19,8 +19,8 @@ from .bundled import MODULE, Bundled, bundled_by, module_digest
 SERVER = "perilune.analysis.runtime.process.server"
 MODULES = "import json, sys; print(json.dumps({k: getattr(m, '__file__', None) for k, m in list(sys.modules.items())}))"
 REMEDIES = {
-    MODULE: "rename it, or put it into a package of another name",
-    "library": "give it another file name and SONAME",
+    MODULE: "rename the module, or put it into a package of another name",
+    "library": "give the library another file name and SONAME",
 }
 Files = Mapping[str, str | None]  # files of modules by name; None for those without a file
 

@@ -33,7 +33,7 @@ def pass_parameters(network: Network, settings: SystemSettings) -> None:
             if brought is not None:
                 settings.nodes[source.name] = brought[1]
             elif source.name not in settings.nodes:
-                remedy = f"give it a value in a parameter set, or `set` {source.name}=VALUE"
+                remedy = f"give {source.name} a value in a parameter set, or `set` {source.name}=VALUE"
                 raise network.refuse(link.where, f"{source.name} has no value", remedy)
 
 
@@ -70,7 +70,9 @@ def _pass_on(network: Network, link: NodeLink, value: float | str) -> float | st
     if value not in table:
         if link.transformation.is_partial:
             return value
-        raise InputError(network.file, link.where, f"the mapping has no entry for {value:g}", "add one")
+        raise InputError(
+            network.file, link.where, f"the mapping has no entry for {value:g}", "add an entry for this value"
+        )
     return table[value]
 
 

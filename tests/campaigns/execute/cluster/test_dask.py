@@ -221,7 +221,7 @@ OTHERS = {
 def test_no_worker_comes(line, tmp_path, monkeypatch, refusal):
     monkeypatch.setattr(connection, "FIRST_WORKER", 0.2)
     with dask_cluster(tmp_path, workers=0) as alone:
-        words = f"no worker has connected within 0.2 s; start one with dask worker {alone.address}"
+        words = f"no worker has connected within 0.2 s; start a worker with dask worker {alone.address}"
         assert words in refusal([*line, "--scheduler", alone.address])
 
 

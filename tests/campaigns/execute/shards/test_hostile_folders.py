@@ -100,7 +100,7 @@ MANIFESTS = {
         lambda it: it.update(trials=10**30),
         "trials: trials of a campaign: 1e+30 trials, at most 1e+09 are accepted",
     ),
-    "another key": (lambda it: it.update(more=1), "more: not as this version of perilune writes it"),
+    "another key": (lambda it: it.update(more=1), "more: unknown to this version of perilune"),
     "a key less": (lambda it: it.pop("seed"), "missing required field seed"),
     "a file elsewhere": (lambda it: it["campaign"].update(content="../../x"), "not a SHA-256"),
     "nothing compared": (

@@ -155,7 +155,10 @@ def test_a_campaign_that_has_not_flown(folder, tmp_path, capsys):
 
 REFUSED = {
     "a trial beyond the last": (["6", "--configuration", "astar_guidance"], "trial 6: no such trial; give 0 to 5"),
-    "no variant of two": (["0"], "--configuration: its campaign compares 2; give one of analytic_guidance, astar_guid"),
+    "no variant of two": (
+        ["0"],
+        "--configuration: the campaign has 2 configurations, and none is selected; give one of analytic_guidance",
+    ),
     "another variant": (
         ["0", "--configuration", "astar"],
         "--configuration astar: no such configuration; use one of a",

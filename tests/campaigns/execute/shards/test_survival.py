@@ -92,7 +92,7 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(whole, tmp_path, capsys, refusal
     assert hint in capsys.readouterr().err
     assert not (out / "summary.json").exists()
     assert 2 <= shards_in(out) < 5
-    assert "summary.json: not found; complete it: repeat the batch's command with resume" in refusal(
+    assert "summary.json: not found; complete the batch: repeat its command with resume" in refusal(
         ["compare", str(out), "--report", str(tmp_path / "page.html")]
     )
     assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
@@ -212,7 +212,7 @@ def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, 
     assert main(repeated) == 2
     said = capsys.readouterr().err
     assert f"{shard}: cannot be read as parquet" in said
-    assert "remove it: the batch's command with --resume simulates its trials again" in said
+    assert "remove this file: the batch's command with --resume simulates its trials again" in said
     shard.unlink()
     assert main(repeated) == 0
     assert bytes_of(copy) == bytes_of(folder)

@@ -112,7 +112,7 @@ def test_exported_with_fmus_of_fmi_3_every_array_has_a_connector(name, tmp_path)
 
 
 def test_fmus_of_fmi_3_need_version_2(tmp_path):
-    with pytest.raises(InputError, match=r"FMUs of FMI 3\.0 have arrays, which SSP 1\.0 does not support"):
+    with pytest.raises(InputError, match=r"FMI 3\.0 FMUs have arrays, which SSP 1\.0 does not support"):
         export("lunar_terminal_guidance", fmi=3, ssp="1", output=tmp_path / "s.ssp")
 
 
@@ -120,7 +120,8 @@ def test_fmus_of_fmi_3_need_version_2(tmp_path):
 def test_a_version_of_ssp_is_for_systems(tmp_path, monkeypatch, ssp):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(
-        InputError, match="forming_filter is not a system, and the option applies only to systems; leave it out"
+        InputError,
+        match="forming_filter is not a system, and the option applies only to systems; leave out this option",
     ):
         export("forming_filter", ssp=ssp)
     assert not list(tmp_path.iterdir())

@@ -114,7 +114,7 @@ FRAME = [
     ),
     ('name="landing site"', 'no axes; write axes="..."'),
     ('axes="a b c"', 'no name; write name="..."'),
-    ('name="landing site" axes="a b"', "axes has 2 names, .* has 3 elements; write as many"),
+    ('name="landing site" axes="a b"', "axes has 2 names, .* has 3 elements; write one name for each"),
     ('name="landing site" axes="a b c d"', "axes has 4 names; write one for each axis, 2 or 3"),
     ('name="landing site" axes="a b b"', "axes: b is there twice; give each axis a different name"),
     ('name="landing site" axes="a b c" frame="x"', "unknown attribute frame"),
@@ -122,7 +122,10 @@ FRAME = [
     ('name="other" axes="a b c" signals="plant.mass"', "signals plant.mass: no such vector"),
 ]
 VECTOR = [
-    ('signals="plant.position" elements="a b"', "elements has 2 names, plant.position has 3 elements; write as many"),
+    (
+        'signals="plant.position" elements="a b"',
+        "elements has 2 names, plant.position has 3 elements; write one name for each",
+    ),
     ('signals="plant.mass plant.mass" elements="a"', "signals plant.mass: no such vector"),
     ('signals="plant.position plant.position" elements="a b c"', "signals plant.position is listed twice"),
     ('signals="plant.position"', 'no elements; write elements="..."'),
@@ -134,7 +137,7 @@ VECTOR = [
     [
         *((f"<Frame {attributes}/>", line) for attributes, line in FRAME),
         *((f"<Vector {attributes}/>", line) for attributes, line in VECTOR),
-        (f"{SITE}{SITE}", "a second Frame landing site; write one"),
+        (f"{SITE}{SITE}", "a second Frame landing site; write only one"),
         ('<Axes name="landing site"/>', "unknown element; use one of Frame, Vector"),
     ],
 )

@@ -76,7 +76,10 @@ def test_of_a_component_it_is_what_the_fmu_declares_unless_it_is_given(tmp_path)
 @pytest.mark.parametrize(
     ("root", "words"),
     [
-        (nested(), r"inner\.in, Dimension \(line \d+\): inner\.n has no value; give it a value in a parameter set"),
+        (
+            nested(),
+            r"inner\.in, Dimension \(line \d+\): inner\.n has no value; give this parameter a value in a parameter set",
+        ),
         (nested(inline("n=UInt64:2")), r"connection in -> gain\.u \(line \d+\): connects 2 elements with 3 elements"),
         (
             nested(inline("n=Float64:2.5")),

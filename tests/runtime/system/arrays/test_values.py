@@ -84,7 +84,7 @@ REFUSED = {
     "start(n)=Float64:4 m": r"start, Dimension \(line \d+\): no size, which only connectors may omit",
     "start(?)=Float64:4 m": r"start, Dimension \(line \d+\): no size",
     "count(1)=Int32:4": r"count\[1\] \(line \d+\): matches no parameter",
-    "start(3)=Boolean:true,true,false": r"start\[1\] \(line \d+\): is Boolean, the variable is Real",
+    "start(3)=Boolean:true,true,false": r"start\[1\] .*: the value is of type Boolean, but the variable is of type",
     "start(3)=Float64:4,5,6 s": r"start\[1\] \(line \d+\): unit s does not fit m",
 }
 
@@ -98,7 +98,7 @@ def test_what_does_not_fit_is_refused_in_one_line(array_fmus, tmp_path, given):
 
 def test_several_values_need_a_dimension(array_fmus, tmp_path):
     text = in_version_2(document(system(three(inline("start=Float64:4 m"))))).replace('value="4"', 'value="4 5 6"')
-    with pytest.raises(InputError, match=r"start \(line \d+\): 3 values for a scalar; give as many values, or correct"):
+    with pytest.raises(InputError, match=r"start \(line \d+\): 3 values for a scalar; give one value for each element"):
         fly(pack(tmp_path / "s.ssp", array_fmus, text))
 
 

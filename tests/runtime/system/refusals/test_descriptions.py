@@ -164,9 +164,12 @@ TABLE = {
     "an output as a parameter": (system(RAMP, bindings=inline("ramp.y=Real:1")), ["ramp.y", "matches no parameter"]),
     "parameter of wrong type": (
         system(RAMP, bindings=inline("ramp.start=Boolean:true")),
-        ["ramp.start", "is Boolean, the variable is Real", "give a Real"],
+        ["ramp.start", "the value is of type Boolean, but the variable is of type Real", "give a Real"],
     ),
-    "Real for an Integer": (system(RAMP, bindings=inline("ramp.flag_at=Real:1")), ["is Real, the variable is Integer"]),
+    "Real for an Integer": (
+        system(RAMP, bindings=inline("ramp.flag_at=Real:1")),
+        ["the value is of type Real, but the variable is of type Integer"],
+    ),
     "parameter of wrong unit": (
         system(RAMP, bindings=inline("ramp.start=Real:1 s")),
         ["ramp.start", "unit s does not fit m"],
@@ -188,7 +191,7 @@ TABLE = {
     "missing parameter set": (system(RAMP, bindings=external("resources/none.ssv")), ["no file resources/none.ssv"]),
     "parameter set elsewhere": (
         system(RAMP, bindings='<ssd:ParameterBinding source="x.ssv" sourceBase="component"/>'),
-        ["sourceBase", "use SSD"],
+        ["sourceBase", 'write sourceBase="SSD"'],
     ),
     "parameter set of another kind": (
         system(RAMP, bindings='<ssd:ParameterBinding source="x.csv" type="text/csv"/>'),

@@ -128,11 +128,11 @@ BROKEN_FMUS = {
     ),
     "other platform, with sources": (
         lambda tiny: of_another_platform(tiny, "compile.c"),
-        ["no binary for this platform; compile the FMU's sources for it"],
+        ["no binary for this platform; compile the FMU's sources for this platform"],
     ),
     "other platform, without sources": (
         lambda tiny: of_another_platform(tiny, "readme.txt"),
-        ["no binary for this platform; export it for this platform"],
+        ["no binary for this platform; export the FMU for this platform"],
     ),
     "binary that is none": (
         lambda tiny: zipped({key: b"x" if "linux" in key else value for key, value in fmu_files(tiny).items()}),

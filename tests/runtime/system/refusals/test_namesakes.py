@@ -105,10 +105,7 @@ def test_a_second_fmu_with_another_helper_ran_the_first_ones(tmp_path, capsys):
     python_fmu(tmp_path, "two", 2.0)
     line = refusal(capsys, both(tmp_path, "one", "two"))
     assert "resources/two.fmu: resources/helper.py: another module helper is resources/helper.py of" in line
-    assert (
-        "resources/one.fmu, and a process can load only one; rename it, or put it into a package of another name"
-        in line
-    )
+    assert "resources/one.fmu, and a process can load only one; rename the module, or put it into a package" in line
 
 
 def test_scripts_of_one_name_are_modules_too(tmp_path, capsys):
@@ -132,7 +129,7 @@ def test_two_libraries_of_one_soname_were_one(tmp_path, capsys):
     line = refusal(capsys, path, "--open-inputs", "start")
     binaries = f"binaries/{fmpy.platform}"
     assert f"another library libhelper.so.1 is {binaries}/libhelper.so.1 of" in line
-    assert "give it another file name and SONAME, in one of the two FMUs" in line
+    assert "give the library another file name and SONAME, in one of the two FMUs" in line
 
 
 @pytest.mark.parametrize("other", ["libhelper.so.1", "libother.so.1"])
