@@ -147,7 +147,7 @@ def test_wrong_levels_are_one_line() -> None:
     desired = [-np.eye(2), -np.eye(2)]
     for matrices, bases, problem in (
         (desired[:1], None, "give one for each level, of sizes 2, 2"),
-        ([-np.eye(2), [[-1.0]]], None, r"matrices\[1\]: it is 1 by 1; give 2 by 2 numbers"),
+        ([-np.eye(2), [[-1.0]]], None, r"matrices\[1\]: is 1 by 1; give 2 by 2 numbers"),
         (desired, [eye[:, 2:], eye[:, 2:]], "together they are not an orthonormal basis"),
         (desired, [eye[:, 2:], eye[:, :1]], "together they are not an orthonormal basis"),
         (desired, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are not an orthonormal basis"),
