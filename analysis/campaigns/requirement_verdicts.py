@@ -75,7 +75,8 @@ def requirement_verdict(
 ) -> RequirementVerdict:
     """Return the verdict on one requirement from a variant's trials, in order.
 
-    With ``until_decided``, that is if the campaign may have ended once it was decided, all of it is by `StoppingRule`.
+    Set ``until_decided`` if the campaign may have stopped as soon as its requirements were decided: verdict, risk and
+    bound then follow `StoppingRule`, otherwise `FixedSize`.
     """
     rule_of = stopping_rule if until_decided else FixedSize
     rule = rule_of(requirement.share, requirement.confidence)

@@ -111,7 +111,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
 
 
 def _commands_of_margin(search: MarginRequest) -> StudyCommands:
-    """Return the writers of commands for the studies of a search for the worst margin."""
+    """Return functions that write the commands of a worst-margin search's studies."""
 
     def replay(draws: Path, trial: int) -> str:
         return study_command(replace(search.request, draws=draws), search.loop.name, trial)

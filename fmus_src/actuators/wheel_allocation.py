@@ -96,7 +96,9 @@ class WheelAllocation(Block, interface=True):
         self.allocate()
 
     def null_torque(self) -> Vector4:
-        """Return the torque (N m) along the null direction that every motor's limit allows in addition."""
+        """Return the motor torques (N m) of the null motion towards ``speed_change``, within what each motor's limit
+        leaves.
+        """
         amount = 0.0
         for j in range(WHEELS):
             amount = amount + self.null[j] * self.speed_change[j]

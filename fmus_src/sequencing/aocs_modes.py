@@ -86,9 +86,13 @@ class AocsModes(Block):
     time_in_mode = Output(0.0, unit="s", direct=True, description="time since the start of the current mode")
     status = Output(AocsModesStatus, direct=True)
     begun = State(0.0, unit="s", description="start time of the current mode")
-    settled_since = State(0.0, unit="s", description="time since which the conditions of the next transition have held")
-    fast_since = State(0.0, unit="s", description="time since which the angular rate has exceeded lost_rate")
-    blind_since = State(0.0, unit="s", description="time since which the attitude has been unknown")
+    settled_since = State(
+        0.0, unit="s", description="last time at which the conditions of the next transition did not hold"
+    )
+    fast_since = State(0.0, unit="s", description="last time at which the angular rate was within lost_rate")
+    blind_since = State(
+        0.0, unit="s", description="last time at which the attitude was known; initially the start time"
+    )
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

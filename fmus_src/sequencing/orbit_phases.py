@@ -57,7 +57,7 @@ class OrbitPhases(LandingSequence, interface=True):
         300.0,
         unit="m",
         minimum=0.0,
-        description="least predicted altitude of the coast before braking_range; below it impact is predicted",
+        description="predicted altitude of the coast before braking_range below which impact is predicted",
     )
     coast_patience = Parameter(
         20.0, unit="s", minimum=0.0, description="time for which impact must be predicted before the coast is ended"
@@ -98,10 +98,10 @@ class OrbitPhases(LandingSequence, interface=True):
     planned_burn = State(0.0, frozen=True, unit="s", description="duration of the deorbit burn planned at ignition")
     holding = State(False, description="true: command of the deorbit burn held until its end")
     falling_since = State(
-        NEVER, unit="s", description="time since which impact has been predicted in the coast; -1: not predicted"
+        NEVER, unit="s", description="time at which impact was first predicted in the coast; -1: not predicted"
     )
     unsolved_since = State(
-        NEVER, unit="s", description="time since which the braking guidance has had no solution; -1: solution exists"
+        NEVER, unit="s", description="time at which the braking guidance lost its solution; -1: solution exists"
     )
     flown_divert = State(0, description="number of diverts of the braking guidance included in the landing site")
     elsewhere = State(False, description="true: braking to be completed away from the site")

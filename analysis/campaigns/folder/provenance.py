@@ -62,7 +62,8 @@ class CampaignMetadata(TypedDict, total=False):
 class CampaignProvenance(CampaignMetadata, total=False):
     """Inputs that determine a batch's numbers, other than the trials themselves.
 
-    ``batch`` identifies it; folders of earlier versions have a key of their ``manifest`` instead.
+    ``batch`` is the key of the batch. Folders written by earlier versions have a key derived from their manifest, in
+    ``manifest``, instead.
     """
 
     system: str

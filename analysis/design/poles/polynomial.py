@@ -15,10 +15,11 @@ from .spectrum import Spectrum
 
 
 def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
-    """Return N (largest degree, r, r) of a matrix polynomial with the spectrum; column j has at most degree k_j.
+    """Return the coefficients (largest degree, r, r) of a matrix polynomial with the spectrum.
 
-    Each element of the diagonal has separate poles. If conjugate pairs outnumber the places there, a pair a +- i b uses
-    two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
+    Column j has degree ``degrees[j]``; its leading coefficient 1 is not stored. Each diagonal element has separate
+    poles. Conjugate pairs a +- i b that do not fit on the diagonal each use two elements of odd degree: [(s - a) f, -b
+    g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
     """
     odd = [j for j, degree in enumerate(degrees) if degree % 2]
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))

@@ -106,7 +106,10 @@ class SignalReader(AnnotationReader):
         return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """Return the labels of a vector's elements: names of the figure or its frame, or indices; none for a scalar."""
+        """Return one label per element: those of the figure, else the frame's axis names, else indices.
+
+        A scalar has one empty label.
+        """
         labels = tuple(element.get("labels", "").split())
         if not labels and self.displayed(signal.names[0]) == signal.label:
             return ("",)

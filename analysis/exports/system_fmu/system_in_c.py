@@ -211,7 +211,10 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 
 def _dispatch(lines: CodeLines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
-    """Add the calls of the choices' functions; among the programs the candidates of the last slot vary fastest."""
+    """Add a call of each choice's function, made if the slot parameters select that choice.
+
+    ``programs`` are ordered with the candidate of the last slot varying fastest.
+    """
     numbers_of = itertools.product(*(slot.enumeration.numbers.values() for slot in slots if slot.enumeration))
     for program, chosen in zip(programs, numbers_of, strict=True):
         tests = " && ".join(f"self->{slot.path} == {number}" for slot, number in zip(slots, chosen, strict=True))

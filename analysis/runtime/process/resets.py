@@ -48,8 +48,7 @@ class TrialWatch:
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
     """Return the verdicts on FMUs that are not self-contained, by SHA-256.
 
-    An FMU that cannot be tested needs a process for each simulation. If ``watch`` was given up, verdicts are not stored
-    for other simulations.
+    An FMU whose test fails gets a process for each simulation; this verdict is not stored if ``watch`` was cancelled.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():

@@ -28,7 +28,7 @@ class PlanetAxes(Record):
         description="axis perpendicular to the first axis and to the pole, unit vector",
     )
     pole = Field(Vector3, unit="1", frame="inertial", description="rotation axis towards north, unit vector")
-    time = Field(unit="s", description="time for which axes and angle hold")
+    time = Field(unit="s", description="instant at which axes and angle are valid")
     angle = Field(unit="rad", description="angle of the prime meridian from the first axis at that time")
     rate = Field(unit="rad/s", description="time derivative of the prime meridian's angle")
 

@@ -33,9 +33,7 @@ def pressure_at(distance: float, illumination: float) -> float:
 
 
 def plate_drag(plates: Matrix, density: float, velocity: Vector3) -> SurfaceLoad:
-    """Return the drag on the plates in air of a density (kg/m3) at a velocity (m/s, body) of the body relative to the
-    air.
-    """
+    """Return the drag load on plates for an air density (kg/m3) and a velocity relative to the air (m/s, body)."""
     force = vector(0.0, 0.0, 0.0)
     torque = vector(0.0, 0.0, 0.0)
     for k in range(len(plates)):

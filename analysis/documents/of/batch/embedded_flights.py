@@ -113,7 +113,9 @@ def _scene_names(scene: SceneFigure | None) -> set[str]:
 def _document(
     provenance: CampaignProvenance, names: Sequence[str], flights: Sequence[RecordedFlight]
 ) -> RecordedDocument:
-    """Return panels with a line for each element of a vector, and for each simulation a column per line."""
+    """Return the document of flights: a panel per vector with a line per element, and for each flight the samples of
+    every line.
+    """
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {
         "panels": [
