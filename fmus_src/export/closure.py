@@ -106,8 +106,8 @@ def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
             source = Path(inspect.getfile(owner)).resolve()
             path = source.with_name(name)
             if not path.is_file():
-                problem = f"data names {name}, and there is no such file next to {source.name}"
-                raise ClosureError(f"{source}: {owner.__name__}: {problem}; define it there, or remove the name")
+                problem = f"data names {name}, which is not next to {source.name}"
+                raise ClosureError(f"{source}: {owner.__name__}: {problem}; put the file there, or remove its name")
             owners[path] = owner
     return owners
 

@@ -143,7 +143,7 @@ def test_a_native_fmu_of_before_does_not_fly_in_its_place(here):
 REFUSED = {
     "missing": (
         ("net.npz", "gone.npz"),
-        "my_table.py: MyTable: data names gone.npz, and there is no such file next to",
+        "my_table.py: MyTable: data names gone.npz, which is not next to",
     ),
     "absolute": (("net.npz", "/etc/hostname"), "data names '/etc/hostname', which is not a file next to the"),
     "above": (("net.npz", "../net.npz"), "data names '../net.npz', which is not a file next to the source"),

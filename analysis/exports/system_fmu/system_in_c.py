@@ -211,7 +211,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 
 def _dispatch(lines: CodeLines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
-    """Add a call of each choice's function, made if the slot parameters select that choice.
+    """Add a call of each choice's function under the condition that the slot parameters select it.
 
     ``programs`` are ordered with the candidate of the last slot varying fastest.
     """

@@ -182,8 +182,8 @@ def _connect(network: Network, path: str, system: SystemElement, connection: Con
     end = _end(network, path, system, connection.end, connection)
     backwards = next((term for term in (link, *link.added) if term.target is not end), None)
     if link.added and backwards is not None:
-        problem = f"{backwards.target.name} is {backwards.target.kind}, which cannot be added"
-        raise network.refuse(connection.where, problem, "add outputs, and connect their sum with an input")
+        problem = f"{backwards.target.name} is an {backwards.target.kind} and cannot be a term of a sum"
+        raise network.refuse(connection.where, problem, "sum outputs, and connect the result to an input")
     network.driver[link.target.name] = link
 
 

@@ -179,7 +179,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         if isinstance(error, OSError) and is_of_machine(error):
             problem = f"cannot be unpacked to {folder}: {reason_of(error)}"
             raise InputError(label, "archive", problem, remedy_of(error)) from error
-        raise InputError(label, "archive", f"damaged in the zip, or not unpacked: {error}", REMEDY) from error
+        raise InputError(label, "archive", f"cannot be unpacked, probably damaged: {error}", REMEDY) from error
     if is_fmi3:
         fmi3.check_sizes(description, {}, label)
     fmu.variables = dict(_read_variables(xml))
