@@ -47,7 +47,8 @@ def reduced_observer(
     sizes = np.linalg.svd(outputs, compute_uv=False)
     if len(outputs) > len(state) or sizes[-1] <= TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
-        problem = f"C, {len(outputs)} by {len(state)}, is rank deficient: its smallest singular value is {ratio:.2g} of the largest"
+        shape = f"C, {len(outputs)} by {len(state)}"
+        problem = f"{shape}, is rank deficient: its smallest singular value is {ratio:.2g} of the largest"
         remedy = "remove outputs that depend linearly on others"
         raise PlacementError("reduced observer", Reason.RANK, problem, ratio, remedy)
     if len(outputs) == len(state):
