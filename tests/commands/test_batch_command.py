@@ -314,5 +314,5 @@ def test_too_many_groups_are_refused_before_anything_flies(grouped, tmp_path, ca
     assert main([*of_campaign(tmp_path, "--output", str(tmp_path / "out")), "--trials", "101"]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert f"{tmp_path / 'c.toml'}: group.by: 101 different values or more" in error
+    assert f"{tmp_path / 'c.toml'}: group.by: at least 101 different values" in error
     assert not (tmp_path / "out").exists()

@@ -106,7 +106,7 @@ def test_every_command_has_its_table():
 def test_what_to_choose_has_the_excess_of_the_tables():
     """The first numbers of that column, one for each bench; a dash where a law has none."""
     text = (ROOT / "docs" / "choosing.md").read_text(encoding="utf-8")
-    header, body = re.search(r"(\| FMU .*excess over the bound.*\n)\|[ -|]*\n((?:\|.*\n)+)", text).groups()
+    header, body = re.search(r"(\| FMU .*propellant above the bound.*\n)\|[ -|]*\n((?:\|.*\n)+)", text).groups()
     benches = re.findall(r"`(laws_\w+)`", header)
     means = {bench: {} for bench in benches}
     for command, head, rows in BENCH.findall(PAGE):

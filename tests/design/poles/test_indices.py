@@ -81,7 +81,7 @@ def test_refuses_what_is_not_reached(unreached: int, seed: int) -> None:
     a, b = random.normal(size=(5, 5)), random.normal(size=(5, 2))
     a[5 - unreached :, : 5 - unreached] = b[5 - unreached :] = 0.0
     turn = np.linalg.qr(random.normal(size=(5, 5)))[0]
-    with pytest.raises(PlacementError, match=f"{unreached} of 5 states are not reached") as refused:
+    with pytest.raises(PlacementError, match=f"{unreached} of 5 states are not controllable") as refused:
         indices(turn.T @ a @ turn, turn.T @ b, Spectrum.of([-1.0] * 5, 5))
     assert refused.value.reason is Reason.NOT_CONTROLLABLE
     assert refused.value.number < 1e-12

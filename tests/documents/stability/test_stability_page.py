@@ -281,7 +281,7 @@ def test_extremes(studies, tmp_path):
     assert_self_contained(page)
     assert_no_infinities(page)
     text = text_of(page)
-    for words in ("without limit", "not counted", "none (no crossing)", "The study names no file."):
+    for words in ("without limit", "not counted", "none (no crossing)", "The study uses no file."):
         assert words in text
 
 

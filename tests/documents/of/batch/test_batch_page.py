@@ -173,7 +173,7 @@ def test_nothing_finite(tmp_path):
     page = write(batch_result({"only": [(False, math.nan, math.inf)] * 5}), tmp_path / "page.html")
     assert_self_contained(page)
     assert "miss has no finite value in any trial" in text_of(page)
-    assert "All trials failed, so that no influence can be computed: only." in text_of(page)
+    assert "All trials failed, so no influence can be computed: only." in text_of(page)
 
 
 def test_one_trial(tmp_path):
