@@ -145,9 +145,7 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     assert shaky.first.metrics["miss"].tolist() == whole.trials["shaky"].metrics["miss"][:30].tolist()
     assert shaky.dots.draws["offset"].tolist() == whole.plan.draws.columns["offset"][order].tolist()
     observed = np.count_nonzero(failed < 30) + 4
-    assert (
-        shaky.note == f"the first 30 of 100 trials; scatter plots also show {observed} of {failed.size} failures"
-    )
+    assert shaky.note == f"the first 30 of 100 trials; scatter plots also show {observed} of {failed.size} failures"
     assert result.plotted["steady"].note == "the first 30 of 100 trials; scatter plots also show all failures"
     write_batch_page(result, tmp_path / "page.html", "Long")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
