@@ -238,7 +238,7 @@ def test_wrong_input(plain, campaign, tmp_path, monkeypatch, capsys, arguments, 
 def test_a_system_without_loops(capsys):
     assert main(["stability", "lunar_terminal_guidance"]) == 2
     error = capsys.readouterr().err
-    assert "declares no loops; name a loop in the SSD, or cut a loop with --loop COMPONENT.CONNECTOR --at" in error
+    assert "declares no loops; name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at" in error
     assert error.count("\n") == 1
 
 

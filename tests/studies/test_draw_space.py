@@ -118,7 +118,7 @@ def test_held_draws_have_one_value(campaign):
 @pytest.mark.parametrize(
     ("text", "held", "words"),
     [
-        (CHOICE, {}, "draw.mode: a choice has discrete values.*hold it: hold mode=1"),
+        (CHOICE, {}, "draw.mode: a choice has discrete values.*hold this draw: hold mode=1"),
         (GRID, {}, "draw.case: a grid has discrete values"),
         (RANDOM + CHOICE, {"mode": 3}, "hold: mode: 3 is not one of its values; use 1, 2, 4"),
         (RANDOM, {"x": 1}, "hold: x: is drawn together with y, z; hold all of them or none"),

@@ -97,7 +97,9 @@ def test_wrong_input(linear, capsys, options, words):
 
 def test_correlated_draws_are_refused(tmp_path):
     linear = linear_system(tmp_path)
-    with pytest.raises(InputError, match=r"draw\.pair: jointly normal values have no separate indices; hold them"):
+    with pytest.raises(
+        InputError, match=r"draw\.pair: jointly normal values have no separate indices; hold these values"
+    ):
         perilune.sensitivity(*linear, 64)
     result = perilune.sensitivity(*linear, 64, hold={"b.gain": 1.0, "c.gain": 0.0}, workers=1)
     assert result.of("total")["a.gain"]["total"] == pytest.approx(1.0, rel=0.1)

@@ -212,7 +212,7 @@ X = sp.Symbol("x", real=True)
             "does not span the states that drive it",
         ),
         ([[0, X], [0, 0]], [[0], [1]], [[[-1]]], {}, "1 matrices"),
-        ([[0, X]], [[0], [1]], [-1, -2], {}, "it has 2 columns"),
+        ([[0, X]], [[0], [1]], [-1, -2], {}, "has 2 columns"),
     ],
 )
 def test_refusals(a: list, b: list, required: list, options: dict, message: str) -> None:

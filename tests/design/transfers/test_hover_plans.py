@@ -181,7 +181,7 @@ def test_a_plan_that_the_direct_method_shows_to_exist():
 def test_no_room_for_the_programme():
     with pytest.raises(PlanError, match="no simplified programme covers 10000 m in 500 m of descent"):
         hover_study(VEHICLE, Transfer(10000.0, 500.0, 1.622))
-    with pytest.raises(PlanError, match="no simplified programme that takes 40 s goes"):
+    with pytest.raises(PlanError, match="no simplified programme that takes 40 s covers"):
         hover_study(VEHICLE, TRANSFER, duration=40.0)
 
 

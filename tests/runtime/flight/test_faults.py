@@ -154,7 +154,7 @@ def test_faults_outlive_a_fatal_error(tmp_path, tiny_folder):
         ({"name": "ramp.y", "kind": "bias", "start": 2.0, "stop": 1.0}, "empty window"),
         ({"name": "ramp.y", "kind": "bias", "value": math.nan}, "not finite"),
         ({"name": "ramp.y", "kind": "bias", "start": math.nan}, "empty window"),
-        ({"name": "ramp.y", "kind": "freeze", "value": 1.0}, "ramp.y: a freeze has no value; omit it"),
+        ({"name": "ramp.y", "kind": "freeze", "value": 1.0}, "ramp.y: a freeze has no value; omit the value"),
         ({"name": "ramp.flag", "kind": "bias", "value": 1.0}, "ramp.flag: a Boolean has no bias"),
     ],
 )

@@ -151,7 +151,7 @@ BOTH = signal("ramp.y", "s:in[0]") + signal("other.y", "s:in[1]")
         (of_sum(BOTH, signal("s:out", "fast.y")), r"fast\.y .*output"),
         (
             of_sum(signal("fast.u", "s:in[0]"), signal("fast.u", "s:in[1]"), signal("s:out", "ramp.y")),
-            "cannot be added",
+            "cannot be a term of a sum",
         ),
         (of_sum(BOTH, inputs="many"), "inputCount 'many' is not a number from 1 to 10000"),
         (of_sum(BOTH, signal("ramp.flag", "s:out")), r"flag"),

@@ -109,7 +109,7 @@ CHOICE = '[draw."a.count"]\ndistribution = "choice"\nvalues = [0, 1]\n'
 def test_what_is_held_is_said(tmp_path, capsys, refusal):
     linear = linear_system(tmp_path, CHOICE)
     line = ["rare", linear[0], "--campaign", linear[1], "--samples", "300", "--workers", "1"]
-    assert "a choice has discrete values, but this study needs a continuous draw; hold it" in refusal(line)
+    assert "a choice has discrete values, but this study needs a continuous draw; hold this draw" in refusal(line)
     assert main([*line, "--hold", "a.count=1", "--failure", "total > 2.5"]) == 0  # total is defined for count 1
     text = capsys.readouterr().out
     for part in ("failure probability", "all numbers", "Levels"):

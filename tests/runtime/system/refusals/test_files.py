@@ -96,7 +96,7 @@ BROKEN_FMUS = {
     "not a zip": (lambda tiny: b"this is no zip", ["not a readable zip", "build or copy"]),
     "empty": (lambda tiny: b"", ["not a readable zip"]),
     "truncated": (truncated, ["not a readable zip"]),
-    "scrambled": (scrambled, ["zip"]),
+    "scrambled": (scrambled, ["cannot be unpacked"]),
     "no description": (lambda tiny: zipped({"a": b""}), ["modelDescription.xml", "not found"]),
     "slip": (lambda tiny: zipped(fmu_files(tiny) | {"../evil": b"x"}), ["../evil", "leads out of the archive"]),
     "deep slip": (lambda tiny: zipped(fmu_files(tiny) | {"a/../../evil": b"x"}), ["leads out of the archive"]),
