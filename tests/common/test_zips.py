@@ -26,7 +26,10 @@ def test_a_link_in_a_system_is_named(tmp_path):
     assert str(refused.value) == f"{path}: resources: {LINK}"
 
 
-LINK = "a symbolic link, which is not accepted in an archive; repack the archive with the file or folder in place of the link"
+LINK = (
+    "a symbolic link, which is not accepted in an archive; "
+    "repack the archive with the file or folder in place of the link"
+)
 
 
 def add_link(path, name):
