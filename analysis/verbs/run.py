@@ -15,10 +15,10 @@ from ..campaigns.plain_text import faults_line
 from ..documents.figures.declared import FigureDeclaration
 from ..documents.figures.reading import read_figures
 from ..documents.model import Document
-from ..documents.of.reserve import requirement_problems
 from ..documents.of.simulation.ending import flight_lines, flight_problems, note_lines
 from ..documents.of.simulation.figures.limits import limit_document
 from ..documents.of.simulation.run import RunContext, run_document
+from ..documents.of.unmet import requirement_problems
 from ..options.command import write_command
 from ..options.declared.campaigns import RUN, RunOptions
 from ..options.fault import Fault, faults_of

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-
-from ...campaigns.definition.expressions import Expression
 
 TIGHTEST = "tightest"
 
@@ -22,13 +19,3 @@ def relative_reserve(value: float, low: float | None, high: float | None) -> flo
     scale = low if high is None else high if low is None else 0.5 * (high - low)
     distance = min(below, above)
     return distance / abs(scale) if scale else math.copysign(math.inf, distance)
-
-
-def requirement_problems(requirements: Sequence[Expression], values: Mapping[str, float]) -> list[str]:
-    """Return a line for each requirement that is not met, or whose numbers are missing or not finite."""
-    return [
-        f"`require`: {requirement.text}: not met"
-        for requirement in requirements
-        if not all(math.isfinite(values.get(name, math.nan)) for name in requirement.names)
-        or not requirement.evaluate(values)
-    ]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, TypedDict, TypeVar
 from ....common.errors import UnwrittenError
 from ....common.targets import check_folder
 from ...campaigns.definition.expressions import Expression
-from ...documents.of.reserve import requirement_problems
+from ...documents.of.unmet import requirement_problems
 from ...documents.render.words import lead_text
 from ...options.declared.studies import ConditionOptions
 from ...studies.flown import StudyResult

@@ -23,7 +23,7 @@ from ....campaigns.tables import unmet_lines
 from ....campaigns.trials import TrialTable
 from ....commands.campaigns import replay_of_folder
 from ....runtime.flight.results import TIMED_OUT, with_meaning
-from ..reserve import requirement_problems
+from ..unmet import requirement_problems
 
 
 def printed_lines(batch: CampaignResult, metrics: Sequence[str]) -> list[str]:
