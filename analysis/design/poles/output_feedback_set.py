@@ -136,7 +136,9 @@ def common_feedback(
             "modal", "wanted", "not an array of numbers", "give p matrices, with nan for free elements"
         ) from None
     if any(len(state) != order for state in states) or order % size:
-        raise InputError("modal", "plants", f"their sizes do not fit {size} inputs", "give n by n matrices, n = p m")
+        sizes = ", ".join(str(len(state)) for state in states)
+        remedy = "give matrices of one size n by n, n a multiple of the number of inputs"
+        raise InputError("modal", "plants", f"sizes {sizes} for {size} inputs", remedy)
     if prescribed.shape != (order // size, size, size):
         raise InputError(
             "modal", "wanted", f"has shape {prescribed.shape}", f"give shape {(order // size, size, size)}"

@@ -70,12 +70,10 @@ class _BoundReader(AnnotationReader):
             is_hover = piece in pieces["Hover"]
             roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
             name = roles["name"]
-            if not name.isidentifier() or any(key.startswith(f"{name}.") for key in inputs):
-                raise self.refuse(
-                    piece,
-                    f"name {name!r} is used twice or not a word",
-                    "give each element a different name, without spaces",
-                )
+            if not name.isidentifier():
+                raise self.refuse(piece, f"name {name!r} is not an identifier", "use letters, digits and _")
+            if any(key.startswith(f"{name}.") for key in inputs):
+                raise self.refuse(piece, f"name {name!r} is used twice", "give each element a different name")
             for role in HOVER if is_hover else STOP:
                 inputs[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
             if is_hover:

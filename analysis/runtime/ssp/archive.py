@@ -126,9 +126,7 @@ class SystemArchive:
                 problem = f"no file {name} in the system's folder, and no FMU of this name is built ({places})"
                 remedy = "add the file or correct the source; a block of your own is built by perilune export FILE.py"
                 raise InputError(self.label, element, problem, remedy)
-            problem = (
-                f"no file {name} in the system, no {flavours[-1]} FMU of this repository, and none is built ({places})"
-            )
+            problem = f"no file {name} in the system, and no {flavours[-1]} FMU of this name is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return read_fmu(path), str(path)
 

@@ -17,10 +17,10 @@ from ...stability.request.request import Request, Subject, read_request
 OF_A_LOOP = ("margin", "point", "at")
 OF_FLIGHTS = {  # with the remedy for a search for a margin
     "metric": "give one of them",
-    "compare": "choose by `use`",
-    "faults": "a margin is computed without faults",
-    "input": "a margin is computed without inputs over time",
-    "log": "ask perilune run for it",
+    "compare": "select the FMU with `use`",
+    "faults": "leave them out: margins are computed without faults",
+    "input": "leave it out: margins are computed without inputs over time",
+    "log": "use it with perilune run",
     "timeout": "leave it out",
 }
 

@@ -86,7 +86,7 @@ class ExpressionWriter(CallWriter):
                 return self.write_ifexp(node)
             case ast.Tuple():
                 return self.write_tuple(node)
-        raise TypeError(f"{type(node).__name__}, which no judged kernel has")
+        raise TypeError(f"{type(node).__name__} passed the kernel check but cannot be translated")
 
     def write_constant(self, node: ast.Constant) -> tuple[str, int]:
         return literal(node.value), ATOM  # type: ignore[arg-type]

@@ -64,7 +64,7 @@ class StatementWriter(FunctionWriter):
             case ast.Continue():
                 self.add("continue;")
             case _:
-                raise TypeError(f"{type(statement).__name__}, which no judged kernel has")
+                raise TypeError(f"{type(statement).__name__} passed the kernel check but cannot be translated")
 
     def write_expr(self, node: ast.Expr) -> None:
         text = self.expressions.write(node.value)

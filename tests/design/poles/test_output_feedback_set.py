@@ -121,7 +121,7 @@ def test_plants_that_a_common_feedback_made() -> None:
     ("plants", "wanted", "problem"),
     [
         ([], np.eye(2), "plants: no plant"),
-        ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: their sizes do not fit 2 inputs"),
+        ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: sizes 4, 2 for 2 inputs"),
         ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: not an array of numbers; give p matrices"),
         ([turned_plant(1.0)], np.eye(2), r"wanted: has shape \(2, 2\); give shape \(2, 2, 2\)"),
     ],

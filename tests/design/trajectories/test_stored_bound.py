@@ -78,8 +78,8 @@ def test_pieces(tmp_path):
 @pytest.mark.parametrize(
     ("pieces", "words"),
     [
-        ('<Stop name="a" altitude="1"/><Stop name="a" altitude="2"/>', "name 'a' is used twice or not a word"),
-        ('<Stop name="a.b" altitude="1"/>', "name 'a.b' is used twice or not a word"),
+        ('<Stop name="a" altitude="1"/><Stop name="a" altitude="2"/>', "name 'a' is used twice"),
+        ('<Stop name="a.b" altitude="1"/>', "name 'a.b' is not an identifier"),
         ('<Stop name="a"/>', "no altitude"),
         ('<Go name="a"/>', "unknown element"),
         (PIECES.replace("start_altitude", "altitude"), "no start_altitude"),
