@@ -66,18 +66,18 @@ class _BoundReader(AnnotationReader):
         for role in VECTORS:
             inputs[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))
         inputs |= {role: self.value(element, prepared, names[role]) for role in SCALARS}
-        for piece in (*pieces["Stop"], *pieces["Hover"]):
-            is_hover = piece in pieces["Hover"]
-            roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
+        for child in (*pieces["Stop"], *pieces["Hover"]):
+            is_hover = child in pieces["Hover"]
+            roles = self.attributes(child, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
             name = roles["name"]
             if not name.isidentifier():
-                raise self.refuse(piece, f"name {name!r} is not an identifier", "use letters, digits and _")
+                raise self.refuse(child, f"name {name!r} is not an identifier", "use letters, digits and _")
             if any(key.startswith(f"{name}.") for key in inputs):
-                raise self.refuse(piece, f"name {name!r} is used twice", "give each element a different name")
+                raise self.refuse(child, f"name {name!r} is used twice", "give each element a different name")
             for role in HOVER if is_hover else STOP:
-                inputs[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
+                inputs[f"{name}.{role}"] = self.value(child, prepared, roles[role])
             if is_hover:
-                moved = (self.value(piece, prepared, f"{roles[ASIDE]}[{index}]") for index in (1, 2))
+                moved = (self.value(child, prepared, f"{roles[ASIDE]}[{index}]") for index in (1, 2))
                 inputs[f"{name}.{ASIDE}"] = tuple(moved)
         return inputs
 
