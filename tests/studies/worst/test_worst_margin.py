@@ -218,7 +218,7 @@ def test_what_is_worse_than_what():
     ("options", "words"),
     [
         ({"metric": "position"}, "metric: cannot be combined with loop; give one of them"),
-        ({"compare": {"control": "x"}}, "compare: cannot be combined with loop; choose by use"),
+        ({"compare": {"control": "x"}}, "compare: cannot be combined with loop; select the FMU with use"),
         ({"timeout": 3.0}, "timeout: cannot be combined with loop"),
         ({"loop": None, "point": "there"}, "point: there: needs loop; give loop"),
         ({"loop": None, "at": 3.0}, "at: 3.0: needs loop"),
