@@ -19,13 +19,15 @@ from .wiring import wire
 
 
 def folder_archive(folder: Path, files: Mapping[str, bytes], description: str = DESCRIPTION) -> SystemArchive:
-    """Return the system of a folder, with ``files`` (content by archive name) added or replaced."""
+    """Return a folder as a system archive, with ``files`` (content by archive name) added or replaced."""
     path = folder.resolve()
     return SystemArchive(path.name, str(folder), path, {**system_files(path), **files}, description)
 
 
 def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None = None) -> dict[str, Fmu]:
-    """Return the FMUs by component. Raises SeveralProblemsError with a line for each missing FMU or parameter set."""
+    """Return the FMUs by component name. Raises SeveralProblemsError with a line for each missing FMU or parameter
+    set.
+    """
     loaded: dict[str, Fmu] = {}
     fmus: dict[str, Fmu] = {}
     problems: list[str] = []

@@ -24,12 +24,14 @@ STEP_HINT_NAMESPACE = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 
 
 def fmu_source(fmu: str) -> str:
-    """Return the `source` of a component for the name of an FMU, or its path relative to the system's folder."""
+    """Return the `source` attribute of a component, from an FMU's name or its path relative to the system's folder."""
     return fmu if names_fmu(fmu) else f"{RESOURCES}{fmu}.fmu"
 
 
 def set_source(name: str) -> str:
-    """Return the `source` of a parameter binding; parameter sets of the system's folder are stored as resources."""
+    """Return the `source` attribute of a parameter binding; parameter sets in the system's folder are stored as
+    resources.
+    """
     return name if "/" in name else f"{RESOURCES}{name}"
 
 
@@ -71,7 +73,7 @@ def _of(component: str, wiring: Wiring, order: Iterable[str]) -> dict[str, Conne
 
 
 def _system_order(source: SystemSource, wiring: Wiring) -> list[str]:
-    """Return the system's connectors in the order of their declaration, elements of an array in order."""
+    """Return the system's connectors in the order of their declaration, with the elements of an array in index order."""
     names = [name for component, name in wiring.connectors if not component]
     position = {name: index for index, name in enumerate(source.connectors)}
     return sorted(names, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))
@@ -143,5 +145,5 @@ def _annotations(source: SystemSource) -> list[bytes]:
 
 
 def _number(number: float) -> str:
-    """Return the shortest text that reads back as the same number."""
+    """Return the shortest text that parses to the same number."""
     return repr(number).removesuffix(".0")

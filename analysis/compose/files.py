@@ -1,4 +1,4 @@
-"""Composed files on disk: an SSD records its source, and is never overwritten after an edit by hand."""
+"""Composed files on disk: an SSD records its source file, and a file that was edited by hand is never overwritten."""
 
 from __future__ import annotations
 
@@ -62,7 +62,8 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
 
 
 def report_changed_source(system: str | Path) -> list[str]:
-    """Return a line if a system's `system.toml` or its annotations changed since its SSD was composed, else no line.
+    """Return a message if a system's `system.toml` or its annotations changed since the SSD was composed, else an
+    empty list.
 
     Raises InputError if the system cannot be read.
     """
@@ -82,10 +83,10 @@ def report_changed_source(system: str | Path) -> list[str]:
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:
-    """Write the `system.toml` of a system with its annotations, into another folder with all files it refers to.
+    """Write a system's `system.toml` and its annotations to another folder, with all files they refer to.
 
     ``layers`` are the compositions in its annotations, whose parameter sets and FMUs are written as well. Returns the
-    paths. Files with other content are never overwritten. Raises InputError and OSError.
+    paths of the written files. Files with other content are never overwritten. Raises InputError and OSError.
     """
     contents = {path: write_toml(source).encode()}
     if source.annotations:
@@ -97,7 +98,9 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path, layer
 
 
 def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
-    """Write all files or none; a file with other content is never overwritten. Raises InputError and OSError."""
+    """Write all files or none; an existing file with other content is never overwritten. Raises InputError and
+    OSError.
+    """
     for path, content in contents.items():
         if os.path.lexists(path) and read_input(path, "move this file away", ARCHIVE_BYTES) != content:
             raise InputError(

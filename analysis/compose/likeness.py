@@ -9,11 +9,13 @@ from lxml import etree
 from ..runtime.ssp.documents import parse_xml, tag
 
 UNORDERED = ("Connectors", "Connections", "Units")
-BYTES = "Annotations"  # element whose comments and spaces are significant
+BYTES = "Annotations"  # element whose comments and white space are significant
 
 
 def canonical(element: etree._Element) -> bytes:
-    """Return an element in canonical form: children of UNORDERED sorted, comments and spaces kept in BYTES only."""
+    """Return an element in canonical form: children of UNORDERED sorted, comments and white space preserved only in
+    BYTES.
+    """
     return etree.tostring(_sort(element), method="c14n", with_comments=True)
 
 
@@ -37,7 +39,7 @@ def _sort(element: etree._Element) -> etree._Element:
 
 
 def _difference(one: etree._Element, other: etree._Element) -> str:
-    """Return the innermost element of ``one`` without a counterpart in ``other``."""
+    """Return the innermost element of ``one`` that has no counterpart in ``other``."""
     counterparts = Counter(canonical(each) for each in other if isinstance(each.tag, str))
     for each in one:
         if isinstance(each.tag, str) and not counterparts[canonical(each)]:

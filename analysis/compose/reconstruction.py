@@ -29,7 +29,7 @@ KEEP = "keep the SSD, which can be simulated as it is"
 def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSource:
     """Return the content of a `system.toml` that composes to the SSD of a system.
 
-    Raises InputError, with the element and its line, for content that a `system.toml` cannot express.
+    Raises InputError, with the element and its line, if the SSD contains something that a `system.toml` cannot express.
     """
     name = archive.description_name(variant)
     ssd = archive.read(name, "SSD")
@@ -114,7 +114,7 @@ def _annotations(ssd: bytes, description: SystemDescription) -> bytes:
 
 
 def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmus: Mapping[str, Fmu]) -> dict[str, Any]:
-    """Return the connections, system connectors and open connectors, complete arrays as one entry."""
+    """Return the connections, system connectors and open connectors; a complete array is a single entry."""
     shapes = {
         (component, array): shape
         for component, fmu in fmus.items()
@@ -156,7 +156,7 @@ def _combine_arrays(points: list[Point], shapes: Mapping[Point, Shape]) -> list[
 
 
 def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[ListEntry]:
-    """Yield connections by source, in the order of the SSD; arrays connected element by element become one entry."""
+    """Yield connections by source, in the order of the SSD; arrays connected element by element become a single entry."""
     present = set(pairs)
     targets: dict[str, dict[str, None]] = {}
     for start, end in pairs:

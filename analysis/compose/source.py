@@ -1,4 +1,4 @@
-"""Content of a `system.toml` as plain values, and its reader."""
+"""Content of a `system.toml` as plain values, and the function that reads it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.parameter_values import ParameterValue
 
 ANNOTATIONS_FILE = "annotations.xml"
-KINDS = ("input", "output", "parameter")  # of connectors of the system
+KINDS = ("input", "output", "parameter")  # of system connectors
 LISTS = ("connections", "declare", "unconnected")
 TOP = (
     "name",
@@ -34,7 +34,7 @@ TOP = (
     "set",
     "units",
 )
-# Of a variable, of all elements of a vector or matrix, or of a matrix by rows.
+# A scalar, the elements of a vector or matrix in row-major order, or the rows of a matrix.
 SetValue = ParameterValue | Sequence[ParameterValue] | Sequence[Sequence[ParameterValue]]
 COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
 
@@ -49,7 +49,7 @@ class ListEntry:
 
 @dataclass(frozen=True)
 class ComponentSource:
-    """A component: its FMU (name or path), its parameter sets, and its step (s; None: the system's)."""
+    """A component: its FMU (name or path), its parameter sets, and its step in s (None: the step of the system)."""
 
     fmu: str
     parameters: tuple[str, ...] = ()
@@ -61,9 +61,10 @@ class ComponentSource:
 class SystemSource:
     """A system as described by its `system.toml`. Times are in s.
 
-    ``connectors`` are the connectors of the system (name -> kind), ``declare`` unused connectors of components,
-    ``unconnected`` inputs that keep the start value of their FMU, ``set`` values of parameters in their variables'
-    units, ``annotations`` the exact bytes inside ssd:Annotations.
+    ``connectors`` maps the names of the system's connectors to their kinds. ``declare`` lists unused connectors of
+    components to be declared in the SSD, and ``unconnected`` lists inputs that keep the start value of their FMU.
+    ``set`` contains values of parameters in their variables' units, and ``annotations`` the exact bytes inside
+    ssd:Annotations.
     """
 
     name: str
@@ -94,7 +95,7 @@ class SystemSource:
 
 
 def read_source(path: Path) -> tuple[SystemSource, bytes]:
-    """Return the content of a `system.toml`, and the bytes that it was read from followed by those of its annotations.
+    """Return the content of a `system.toml`, and the bytes of the file followed by the bytes of its annotations.
 
     Raises InputError.
     """
@@ -137,11 +138,11 @@ class _Lines:
         self.keys = key_lines(content)
 
     def of_key(self, key: str) -> str:
-        """Return a key followed by its line."""
+        """Return a key with its line number appended, if known."""
         return f"{key} (line {self.keys[key]})" if key in self.keys else key
 
     def of_entries(self, key: str, texts: tuple[str, ...]) -> Iterator[ListEntry]:
-        """Yield the entries of a list, each with its line; the entries must be in the order of the file."""
+        """Yield the entries of a list, each with its line number; the entries must be in the order of the file."""
         index = self.keys.get(key, 1) - 1
         for each in texts:
             index = next((i for i in range(index, len(self.texts)) if each in self.texts[i]), index)

@@ -1,4 +1,4 @@
-"""Writer of `system.toml`."""
+"""Function that writes a `system.toml`."""
 
 from __future__ import annotations
 

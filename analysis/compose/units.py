@@ -34,7 +34,7 @@ def collect_units(source: SystemSource, wiring: Wiring) -> dict[str, Unit]:
 
 
 def underived_units(source: SystemSource, wiring: Wiring, defined: dict[str, Unit]) -> dict[str, Unit]:
-    """Return the units of an SSD that follow neither from a connector nor from a name in an annotation."""
+    """Return the units of an SSD that cannot be derived from a connector or from a unit name in an annotation."""
     derived = {each.unit.name: each.unit for each in wiring.connectors.values() if each.unit is not None}
     for name in annotation_units(source):
         derived.setdefault(name, unit_by_name(name))

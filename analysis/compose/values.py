@@ -1,4 +1,4 @@
-"""Values of [set], checked against the types of their parameters and written as an inline parameter set of the SSD."""
+"""Values of [set]: checked against the types of their parameters, and written as an inline parameter set of the SSD."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ ACCEPTED: Mapping[str, tuple[type, ...]] = {
 
 
 def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> list[str]:
-    """Return the lines of the parameter set; no lines without values.
+    """Return the lines of the parameter set; empty if there are no values.
 
     Raises SeveralProblemsError with a line for each unknown parameter and each value of a wrong type or size.
     """
@@ -79,7 +79,7 @@ def _convert(
 def _flatten(
     source: SystemSource, name: str, setting: SetValue, shapes: Mapping[str, Shape]
 ) -> Sequence[ParameterValue]:
-    """Return the elements of a value in row order; the rows of a matrix must match its shape."""
+    """Return the elements of a value, a matrix in row-major order; its rows must match the parameter's shape."""
     if isinstance(setting, str) or not isinstance(setting, Sequence):
         return (setting,)
     rows = [each for each in setting if isinstance(each, Sequence) and not isinstance(each, str)]

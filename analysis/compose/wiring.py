@@ -18,17 +18,17 @@ from ..runtime.system.fmu import Fmu
 from .source import ListEntry, SystemSource
 
 ARROW = "->"
-ALL = ".*"  # after a component: all its unconnected inputs
+ALL = ".*"  # after a component's name: all its unconnected inputs
 TARGETS = re.compile(r",(?![^\[]*\])")  # separates names, but not indices
 INDEX = re.compile(r"\[[\d,]+\]$")
 CONNECTED = ("input", "output", "parameter", "structuralParameter", "calculatedParameter")
 
-Point = tuple[str, str]  # component, empty for the system, and connector
+Point = tuple[str, str]  # component (empty for the system) and connector
 
 
 @dataclass(frozen=True)
 class End:
-    """Side of a connection: component, variable as written, and the names of its elements."""
+    """Side of a connection: component, variable as written, and the names of the variable's elements."""
 
     component: str
     variable: str
@@ -41,13 +41,15 @@ class End:
 
     @property
     def indices(self) -> tuple[str, ...]:
-        """The index suffixes of the elements; one empty text for a scalar."""
+        """The index suffixes of the elements; a single empty string for a scalar."""
         return tuple(name.removeprefix(self.variable) for name in self.names)
 
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, unit and SSP 1.0 type; an Enumeration is an Integer, since systems define no enumerations."""
+    """A connector: kind, SSP 1.0 type and unit; an Enumeration becomes an Integer, since systems define no
+    enumerations.
+    """
 
     kind: str
     type: str
@@ -84,7 +86,7 @@ class _Wirer:
         self.fmus = fmus
         self.wiring = Wiring()
         self.problems: list[InputError] = []
-        self.written: set[Point] = set()  # targets of faulty connections, not to be reported as unconnected as well
+        self.written: set[Point] = set()  # targets of faulty connections, which are not reported as unconnected, too
         self.left: set[Point] = set()
         self.signals = {
             component: collapse(name for name, each in fmu.variables.items() if each.causality in CONNECTED)
@@ -96,7 +98,7 @@ class _Wirer:
         self.problems.append(self.source.problem(where, problem, remedy))
 
     def end(self, name: str, entry: ListEntry) -> End | None:
-        """Return one side of a connection; None after recording a problem."""
+        """Return one side of a connection, or None after recording a problem."""
         component, variable = split_name(name, self.fmus)
         if component:
             known = tuple(elements(variable, self.fmus[component].variables))
@@ -129,7 +131,7 @@ class _Wirer:
                     self.written |= {(end.component, name) for name in end.names} if end is not None else set()
 
     def join(self, source: End, target: End, entry: ListEntry) -> bool:
-        """Connect two sides element by element; False after recording a problem."""
+        """Connect two sides element by element; return False after recording a problem."""
         if not source.component and not target.component:
             self.refuse(entry, "both ends are connectors of the system", "connect a connector of a component")
             return False
@@ -145,13 +147,13 @@ class _Wirer:
         return all(self.join_one((source.component, a), (target.component, b), entry) for a, b in pairs)
 
     def make_connector(self, end: End, other: End) -> End:
-        """Return a connector of the system with the elements of the variable that it is connected to."""
+        """Return a system connector with the elements of the variable to which it is connected."""
         if end.variable not in self.source.connectors or other.indices == ("",):
             return end
         return End("", end.variable, tuple(end.variable + index for index in other.indices))
 
     def join_one(self, source: Point, target: Point, entry: ListEntry) -> bool:
-        """Connect two elements; False after recording a problem."""
+        """Connect two elements; return False after recording a problem."""
         ends = [self.connector(point, other) for point, other in ((source, target), (target, source))]
         start, end = ends
         names = [".".join(filter(None, point)) for point in (source, target)]
@@ -180,7 +182,7 @@ class _Wirer:
         return True
 
     def connector(self, point: Point, other: Point) -> ConnectorSource:
-        """Return the connector of a point; one of the system takes type and unit from its first connection."""
+        """Return the connector of a point; a connector of the system takes type and unit from its first connection."""
         component, name = point
         if component:
             return self.of_variable(component, self.fmus[component].variables[name])
@@ -196,7 +198,7 @@ class _Wirer:
         return ConnectorSource(variable.causality, kind, self.fmus[component].unit_of(variable))
 
     def unused(self, entry: ListEntry) -> list[Point]:
-        """Return the unconnected elements of a variable of a component; none after recording a problem."""
+        """Return the unconnected elements of a component's variable; empty after recording a problem."""
         end = self.end(entry.text, entry)
         if end is None:
             return []
@@ -216,7 +218,7 @@ class _Wirer:
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
     def keep_starts(self, entry: ListEntry) -> None:
-        """Record inputs that keep their start values: a named one, or for ``component.*`` all unconnected ones."""
+        """Record inputs that keep their start values: the named input, or all unconnected inputs for ``component.*``."""
         if entry.text.endswith(ALL):
             self.leave_all(entry.text.removesuffix(ALL), entry)
             return
@@ -275,7 +277,7 @@ class _Wirer:
 
 
 def collapse(names: Iterable[str]) -> list[str]:
-    """Return the names without indices: one name for all elements of a vector or matrix."""
+    """Return the names without indices, so that all elements of a vector or matrix share a single name."""
     return list(dict.fromkeys(INDEX.sub("", name) for name in names))
 
 

@@ -14,10 +14,11 @@ from .recorded_run import RecordedRun
 
 @dataclass(frozen=True, eq=False)
 class SignalDifference:
-    """A signal of both runs: ``first`` and ``second``, [n], at the common times, in ``unit``.
+    """A signal of both runs: its values ``first`` and ``second`` ([n], in ``unit``) at the common times.
 
-    ``copy_of`` is an earlier signal with the same values in both runs (the output that drives an input); else empty.
-    ``axis`` names the axis of a vector's element, as stated by the first run that states one.
+    ``copy_of`` names an earlier signal with the same values in both runs (such as the output that drives an input), and
+    is empty if there is none. ``axis`` names the axis of a vector's element, as stated by the first run that states
+    one.
     """
 
     name: str
@@ -29,7 +30,9 @@ class SignalDifference:
 
     @cached_property
     def difference(self) -> np.ndarray:
-        """``second`` minus ``first``, [n]; infinite if only one is finite, 0 if both are NaN or the same infinity."""
+        """``second`` minus ``first``, [n]: infinite where only one is finite, 0 where both are NaN or the same
+        infinity.
+        """
         with np.errstate(invalid="ignore", over="ignore"):
             difference = self.second - self.first
         same = (self.first == self.second) | (np.isnan(self.first) & np.isnan(self.second))
@@ -42,17 +45,17 @@ class SignalDifference:
 
     @property
     def row(self) -> int:
-        """The index of the greatest difference."""
+        """The index of the sample with the greatest difference."""
         return int(np.argmax(np.abs(self.difference)))
 
     @property
     def greatest(self) -> float:
-        """The greatest magnitude of the difference."""
+        """The greatest magnitude of the difference, in ``unit``."""
         return float(np.abs(self.difference[self.row]))
 
     @cached_property
     def relative(self) -> float:
-        """The greatest difference divided by the greatest magnitude of both signals."""
+        """The greatest difference divided by the greatest finite magnitude of both signals."""
         if self.greatest == 0.0:
             return 0.0
         finite = np.concatenate([each[np.isfinite(each)] for each in (self.first, self.second)])
@@ -63,9 +66,10 @@ class SignalDifference:
 class RunDifferences:
     """Differences of two runs at their common ``time`` (s, [n]); ``signals`` by falling relative difference.
 
-    If ``resampled`` is true, the runs have different sample times, and the second is interpolated at those of the
-    first: linearly, or held for Integers and Booleans. ``only`` are the signals of one run alone, first and second;
-    ``unlike`` are (name, unit, unit) of signals whose units cannot be converted.
+    If ``resampled`` is true, the sample times of the runs differ, and the second run is resampled at the times of the
+    first: Reals are interpolated linearly, Integers and Booleans keep their last value. ``only`` lists the signals that
+    only the first run has, and those that only the second run has. ``unlike`` lists signals with units that cannot be
+    converted, as (name, unit in the first run, unit in the second run).
     """
 
     first: RecordedRun
@@ -78,13 +82,14 @@ class RunDifferences:
 
     @property
     def differing(self) -> list[SignalDifference]:
-        """The signals that differ, without copies."""
+        """The signals that differ, without copies of earlier signals."""
         return [each for each in self.signals if each.differs and not each.copy_of]
 
     def split(self, tolerance: float) -> tuple[list[SignalDifference], list[SignalDifference]]:
-        """Return the signals with a relative difference above ``tolerance``, and the other ones that differ.
+        """Return the signals with a relative difference above ``tolerance``, and the signals with a smaller
+        difference.
 
-        Copies are omitted.
+        Signals without a difference and copies are omitted.
         """
         beyond = [each for each in self.differing if each.relative > tolerance]
         return beyond, self.differing[len(beyond) :]
@@ -127,7 +132,7 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
 
 
 def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tuple[float, float] | None:
-    """Return factor and offset of a unit conversion; 1 and 0 if a unit is unknown, None for different dimensions."""
+    """Return factor and offset of a unit conversion: (1, 0) if a unit is unknown, None if the dimensions differ."""
     if unit == into or unit is None or into is None:
         return 1.0, 0.0
     source, target = (replace(unit_by_name(name), is_relative=is_relative) for name in (unit, into))
@@ -135,7 +140,9 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:
-    """Return the values of a signal at times within its run, interpolated or with ``hold`` the latest sample."""
+    """Return the values of a signal at times within its run: linearly interpolated or, with ``hold``, the latest
+    sample.
+    """
     values = run.signals[name]
     if hold:
         return values[np.searchsorted(run.time, time, side="right") - 1]

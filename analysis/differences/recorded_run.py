@@ -1,4 +1,4 @@
-"""Reader of a recorded run: a table that `run --output` or another tool wrote."""
+"""Recorded run: a table written by `run --output` or by another tool."""
 
 from __future__ import annotations
 
@@ -27,9 +27,10 @@ FORM = "give a .parquet or .csv of signals over time, as `perilune run` writes i
 class RecordedRun:
     """Signals by name (float64, [n]) over ``time`` (s, [n], ascending).
 
-    ``units`` are the known units by signal, ``discrete`` the signals that hold between samples (Integers and Booleans),
-    ``relative`` the signals that are differences in their unit, ``axes`` the names of the axes of vector elements, and
-    ``origin`` states what was simulated, if the table does.
+    ``origin`` describes what was simulated, and is empty if the table does not state it. ``units`` maps signals to
+    their units, as far as they are known, and ``axes`` maps vector elements to the names of their axes. ``discrete``
+    contains the signals that are constant between samples (Integers and Booleans), and ``relative`` the signals that
+    are differences, which are converted between units without an offset.
     """
 
     file: str
@@ -105,7 +106,7 @@ def _document(metadata: Mapping[bytes, bytes]) -> dict[str, Any]:
 
 
 def _read_document(path: Path) -> dict[str, Any]:
-    """Read the .json file of a CSV file; empty if there is none. Raises InputError."""
+    """Read the .json file of a CSV file; return an empty dict if there is no such file. Raises InputError."""
     if not path.exists():
         return {}
     remedy = "remove this file, or simulate again"

@@ -1,1 +1,1 @@
-"""Evidence stored in an FMU or a system: read, and reproduced by simulation."""
+"""Evidence stored in an FMU or a system: its reader, and its reproduction by simulation."""

@@ -10,14 +10,14 @@ import numpy as np
 from ...fmus_src.evidence.check import Tolerances
 
 SMALLEST = 1e-6  # least magnitude for relative differences; smaller signals may be rounding errors
-CLOSE = 1e-9  # of a time, for rounding errors of communication points
+CLOSE = 1e-9  # relative tolerance of times, for rounding errors of communication points
 
 
 @dataclass(frozen=True)
 class SignalCheck:
-    """The worst sample of a signal: ``reference``, ``actual`` and their ``difference`` at ``time`` (s).
+    """The worst sample of a signal: ``reference`` and ``actual`` value, and their ``difference``, at ``time`` (s).
 
-    ``excess`` is the difference divided by the ``permitted`` one, infinite where none is permitted. ``tolerance`` is
+    ``excess`` is ``difference`` divided by ``permitted``, or infinite if no difference is permitted. ``tolerance`` is
     the largest permitted difference of any sample, relative to the greatest magnitude of the reference.
     """
 
@@ -37,14 +37,14 @@ class SignalCheck:
 
 
 def time_margin(time: np.ndarray) -> np.ndarray:
-    """Return the difference (s) up to which a time counts as equal to each of these times (s)."""
+    """Return, for each of these times (s), the difference (s) up to which another time counts as equal."""
     return CLOSE * np.maximum(np.abs(time), 1.0)
 
 
 def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
-    """Return the rows of a simulation at the reference's times (s), the last row of equal times.
+    """Return the rows of a simulation at the times (s) of the reference; of several rows at one time, the last.
 
-    None if a reference time is between two rows.
+    None is returned if the simulation has no row at a time of the reference.
     """
     margin = time_margin(reference)
     rows = np.clip(np.searchsorted(flown, reference + margin, side="right") - 1, 0, None)
@@ -54,9 +54,9 @@ def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
 def compare_signal(
     name: str, time: np.ndarray, reference: np.ndarray, actual: np.ndarray, permitted: np.ndarray | None
 ) -> SignalCheck:
-    """Return the worst sample of a signal; arrays are [n].
+    """Return the worst sample of a signal; all arrays have the shape [n].
 
-    With ``permitted`` None all bits must be equal; NaN equals NaN.
+    If ``permitted`` is None, all bits must be equal; NaN equals NaN.
     """
     same = (reference.view(np.int64) == actual.view(np.int64)) | (np.isnan(reference) & np.isnan(actual))
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
@@ -82,8 +82,8 @@ def permitted_differences(
 ) -> np.ndarray | None:
     """Return the permitted difference of each sample of a signal, [n]; None if all bits must be equal.
 
-    A declared tolerance of the signal has precedence over ``relative``, a fraction of its greatest magnitude (at least
-    SMALLEST).
+    A tolerance that is declared for the signal has precedence over ``relative``, a fraction of the signal's greatest
+    magnitude (at least SMALLEST).
     """
     declared = None if tolerances is None else tolerances.get(name)
     if declared is not None:
@@ -101,7 +101,7 @@ def compare(
     tolerances: Tolerances | None,
     relative: float,
 ) -> tuple[list[SignalCheck], bool]:
-    """Compare all signals; return checks, the worst first, and True if the simulation was interpolated."""
+    """Compare all signals; return the checks, the worst first, and True if the simulation was interpolated."""
     is_last = np.append(np.diff(reference_time) > 0.0, True)  # of samples at one time, the last one counts
     reference_time = reference_time[is_last]
     rows = match_rows(flown_time, reference_time)

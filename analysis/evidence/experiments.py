@@ -1,4 +1,4 @@
-"""Experiments of a manifest: what to simulate, and the expected trajectory.
+"""Experiments of a manifest: inputs of the simulation, and its expected trajectory.
 
 Supported are the Experiments format (ma-hs-experiments, 2026), its form of 2025 with times as attributes of the
 experiment, experiments within the manifest (FMI-LS-REF 1.0.0-rc.1), and results without an experiment, which belong to
@@ -36,9 +36,10 @@ TIMES = ("startTime", "stopTime", "stepSize")
 
 @dataclass(frozen=True)
 class PlannedExperiment:
-    """An experiment (times in s, None: default of the FMU) with the names of its files in the archive.
+    """An experiment with the names of its files in the archive. Times are in s; None is the default of the FMU.
 
-    ``tolerances`` maps a signal to (absolute, relative), 0 for signals that are not listed; None if none are declared.
+    ``tolerances`` maps a signal to its tolerances (absolute, relative), which are 0 for unlisted signals. It is None if
+    the experiment declares no tolerances.
     """
 
     name: str
@@ -53,14 +54,14 @@ class PlannedExperiment:
 
 @dataclass(frozen=True)
 class Plan:
-    """The experiments of a manifest; ``notes`` state which are not simulated, and why."""
+    """The experiments of a manifest to simulate; ``notes`` state which others are not simulated, and why."""
 
     experiments: tuple[PlannedExperiment, ...]
     notes: tuple[str, ...]
 
 
 def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Plan:
-    """Return the plan of an archive's experiments. Raises InputError for experiment files that cannot be read."""
+    """Return the plan of an archive's experiments. Raises InputError for an experiment file that cannot be read."""
     experiments: list[PlannedExperiment] = []
     notes: list[str] = []
     for file, element in _elements(manifest, files, label):

@@ -1,4 +1,4 @@
-"""Reader of the FMI-LS-REF manifest in an FMU or a system of any tool, with its violations of the schema."""
+"""Reader of the FMI-LS-REF manifest in an FMU or a system, written by any tool; violations of the schema are listed."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ ALGORITHMS = {f"SHA-{bits}": f"sha{bits}" for bits in (224, 256, 384, 512)} | {
 
 @dataclass(frozen=True)
 class RelatedFile:
-    """A file listed in a manifest: ``name`` in the archive (None if elsewhere), ``checksum`` (None if not stated).
+    """A file listed in a manifest.
 
-    ``study`` is the study that a report of Perilune is about: a campaign or the stability study.
+    ``name`` is its name in the archive, or None if the file is elsewhere; ``checksum`` is None if the manifest states
+    none. ``study`` is set for a report by Perilune: it names the reported campaign, or the stability study.
     """
 
     source: str
@@ -45,7 +46,7 @@ class RelatedFile:
 
 @dataclass(frozen=True)
 class Manifest:
-    """Content of a manifest; ``flaws`` are its violations of the schema, a line each."""
+    """Content of a manifest; ``flaws`` describes its violations of the schema, one line each."""
 
     root: etree._Element
     files: tuple[RelatedFile, ...]
@@ -53,7 +54,7 @@ class Manifest:
 
 
 def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
-    """Read the manifest among an archive's files. Raises InputError if it is missing or not of FMI-LS-REF."""
+    """Read the manifest among an archive's files. Raises InputError if there is none, or if it is not of FMI-LS-REF."""
     if MANIFEST not in files:
         problem = f"holds no {MANIFEST}: nothing to verify"
         raise InputError(label, "evidence", problem, "export it with Perilune, or add reference trajectories")
@@ -86,7 +87,9 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
 
 
 def file_of(source: str, base: str) -> str | None:
-    """Return the name in the archive that a URI relative to ``base`` refers to; None if it refers to no file inside."""
+    """Return the name of the file in the archive to which a URI relative to ``base`` refers; None if there is no such
+    file.
+    """
     try:
         uri = urlsplit(source)
     except ValueError:

@@ -1,4 +1,4 @@
-"""Reproduction of one experiment: simulated again and compared with its reference trajectory."""
+"""Reproduction of an experiment: simulated again, and compared with its reference trajectory."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ from .experiments import PlannedExperiment
 from .trajectory import Trajectory, read_trajectory
 
 TEXTS = ("String", "Binary")
-NAMED = 6  # columns without a variable
-RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
+NAMED = 6  # most columns without a variable, or wide tolerances, that are listed
+RELATIVE = 1e-6  # default tolerance, a fraction of a signal's greatest magnitude
 FEWEST = 10  # samples needed for a verification
-WIDEST = 1e-2  # largest tolerance for a verification, of a signal's greatest magnitude
-WHOLE = 1e-6  # tolerance of a whole number of steps
+WIDEST = 1e-2  # largest tolerance for a verification, a fraction of a signal's greatest magnitude
+WHOLE = 1e-6  # tolerance when a number of steps is tested for being an integer
 SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters among the files of its archive
 
 
 @dataclass(frozen=True)
 class Reproduction:
-    """Comparison of an experiment: ``signals``, the worst first, and ``problems`` that prevented comparisons.
+    """Result of reproducing an experiment: ``signals``, the worst first, and ``problems`` that prevented a comparison.
 
-    ``samples`` is the number of distinct times of the reference. ``not_compared`` are its text columns;
-    ``interpolated`` is True if reference times are between communication points.
+    ``samples`` is the number of distinct times of the reference. ``not_compared`` lists its text columns.
+    ``interpolated`` is True if times of the reference are between communication points.
     """
 
     name: str
@@ -64,7 +64,7 @@ class Reproduction:
 
     @property
     def weaknesses(self) -> list[str]:
-        """The reasons why the comparison is too weak to verify anything, a line each."""
+        """The reasons why the comparison is too weak to verify anything, one line each."""
         few = f"a reference of {self.samples} samples, {FEWEST} verify; give one of more samples"
         wide = [
             f"{each.name} may differ by {each.tolerance:.3g} of its greatest magnitude, {WIDEST:g} verifies at most; "
@@ -86,8 +86,9 @@ def reproduce(
 ) -> Reproduction:
     """Simulate an experiment of an archive with these ``files``, and compare it with its reference.
 
-    ``relative`` is the tolerance of signals without a declared one. Its default is RELATIVE, or 0 (equal bits) if the
-    experiment declares tolerances for other signals. ``loaded`` caches FMUs as in `prepare_system`. Raises InputError.
+    ``relative`` is the tolerance of signals without a declared tolerance. It defaults to RELATIVE, or to 0 (equal bits)
+    if the experiment declares tolerances for other signals. ``loaded`` caches FMUs as in `prepare_system`. Raises
+    InputError.
     """
     reference = _table(files, experiment.references, archive.label)
     prepared = _prepare(archive, files, experiment, reference, options, loaded)
@@ -122,7 +123,7 @@ def reproduce(
 
 
 def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:
-    """Return the recorded signal to compare with each column, and a problem for each column without one."""
+    """Return the recorded signal to compare with each column, and a problem for each column without such a signal."""
     network, prefix = prepared.network, ""
     if prepared.archive.is_fmu:
         prefix = f"{next(iter(network.fmus))}."
@@ -186,7 +187,7 @@ def _prepare(
     series = None
     if experiment.stimuli is not None:
         series = _table(files, experiment.stimuli, archive.label).series(without=others)
-    if options.chosen["step"] is not None:  # before inputs are interpolated, and anything is simulated
+    if options.chosen["step"] is not None:  # before inputs are interpolated or anything is simulated
         start = float(reference.time[0]) if experiment.start is None else experiment.start
         columns = reference.signals.keys() | (series.columns.keys() if series else set())
         check_room(len(columns), (stop - start) // options.chosen["step"], options.chosen["step"])
@@ -194,7 +195,9 @@ def _prepare(
 
 
 def _step(time: np.ndarray, proposed: float | None) -> float | None:
-    """Return the step (s) of a default experiment: the FMU's if it divides all times, else the least spacing."""
+    """Return the step (s) of a default experiment: the FMU's step if it divides all times, else the least spacing of
+    times.
+    """
     spacing = np.diff(time)
     if not (spacing > 0.0).any():
         return proposed
@@ -206,7 +209,7 @@ def _step(time: np.ndarray, proposed: float | None) -> float | None:
 
 
 def _with_component(content: bytes, component: str, file: str) -> bytes:
-    """Return an FMU's parameter set with all names prefixed by ``component``, for a system that contains the FMU."""
+    """Return an FMU's parameter set for a system that contains the FMU: all names with the prefix ``component``."""
     root = read_document(content, "ssv", file)
     for parameter in root.iter(f"{{{NAMESPACES['ssv']}}}Parameter"):
         parameter.set("name", f"{component}.{parameter.get('name', '')}")

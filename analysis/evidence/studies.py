@@ -1,4 +1,4 @@
-"""Studies as evidence: verdicts of campaigns and margins of loops, repeated and compared."""
+"""Studies as evidence: campaigns with their verdicts and stability studies with their margins, repeated and compared."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from ..stability.study import study
 ALL = "all"
 MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin", "delay_margin_s")
 KEYS = ("name", "point", "verdict", "stable", *MARGINS)
-LAPACK = 1e-6  # margins depend on eigenvalues, whose last bits are the linear algebra library's
+LAPACK = 1e-6  # relative tolerance of margins, whose last bits depend on the linear algebra library
 NAMED = 6
 
 
@@ -42,7 +42,8 @@ def known_studies(archive: SystemArchive) -> list[str]:
 
 
 def make_report(system: Path, name: str, options: SystemOptions, timeout: float | None = None) -> bytes:
-    """Return the JSON report of a study, a campaign's name or `STABILITY`. Raises InputError for an unknown study.
+    """Return the JSON report of a ``study``: a campaign's name, or `STABILITY`. Raises InputError for an unknown
+    study.
 
     ``timeout`` (s, wall clock) limits each trial of a campaign; a stability study has no limit.
     """
@@ -53,7 +54,7 @@ def make_report(system: Path, name: str, options: SystemOptions, timeout: float 
 def compare_report(
     stored: bytes, system: Path, name: str, options: SystemOptions, file: str, timeout: float | None
 ) -> list[str]:
-    """Return the differences between a repeated study and its stored report, a line each. Raises InputError."""
+    """Return the differences between a repeated study and its stored report, one line each. Raises InputError."""
     try:
         numbers = dict(_iterate_scalars(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:

@@ -1,4 +1,4 @@
-"""Check of SHA256SUMS in an archive: every file unchanged since the archive was written."""
+"""Check of an archive against its SHA256SUMS: every file must be unchanged since the archive was written."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from ...common.errors import InputError
 from ...fmus_src.evidence.manifest import NOT_LISTED, SUMS
 
 LENGTH = 64  # hexadecimal digits
-SEPARATORS = ("  ", " *")  # of text, and of binary mode
+SEPARATORS = ("  ", " *")  # in text mode, and in binary mode
 
 
 def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], list[str]]:
-    """Return a problem, by name, for each missing or changed file, and the names of files added later.
+    """Return a problem, by file name, for each missing or changed file, and the names of files that were added later.
 
     Both are empty if there is no SHA256SUMS. Raises InputError for a line that is not in the format of sha256sum.
     """

@@ -35,12 +35,14 @@ from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from .studies import ALL, known_studies, make_report
 
-ROWS = 200  # of a trajectory, at most: a flight that differs anywhere differs at its end
+ROWS = 200  # most rows of a trajectory: a simulation that differs anywhere differs at its end
 TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """Return the requested studies; `ALL` stands for all of the system. Raises InputError for an unknown one."""
+    """Return the requested studies; `ALL` stands for all studies of the system. Raises InputError for an unknown
+    study.
+    """
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
@@ -52,9 +54,11 @@ def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
 
 
 def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes]:
-    """Return the files of a packed system with evidence: a simulation without changes, and reports of ``studies``.
+    """Return the files of a packed system with evidence: a simulation with default options, and reports of
+    ``studies``.
 
-    If the system cannot be simulated as it is, it gets no trajectory, and a warning states why. Raises InputError.
+    If the system cannot be simulated with default options, it gets no trajectory, and a warning states why. Raises
+    InputError.
     """
     files = read_zip(packed)
     related = _list_related(files)
@@ -97,7 +101,7 @@ def _list_related(files: dict[str, bytes]) -> list[Related]:
 
 
 def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
-    """Return the outputs over time (s) as CSV: at most `ROWS` rows, including the first and the last."""
+    """Return the outputs over time (s) as CSV, with at most `ROWS` rows, the first and the last among them."""
     last = flight.time.size - 1
     rows = np.unique(np.linspace(0.0, last, min(ROWS, last + 1)).round().astype(int))
     columns = {"time": flight.time[rows].tolist()}
@@ -120,6 +124,6 @@ def _experiment(prepared: PreparedSystem) -> bytes:
 
 
 def _is_exact(fmu: Fmu) -> bool:
-    """Return True if an FMU yields the same bits on every processor: one of Perilune that runs no Python libraries."""
+    """Return True if an FMU yields the same bits on every processor: an FMU of Perilune that uses no Python libraries."""
     block = catalogue().get(fmu.name)
     return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))

@@ -19,7 +19,7 @@ FORM = "write comma-separated columns, time first"
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """``signals`` over ``time`` (s, [n], ascending), float64 [n] each; ``texts`` are names of non-numeric columns."""
+    """``signals`` (float64, [n]) by name over ``time`` (s, [n], ascending); ``texts`` names the non-numeric columns."""
 
     file: str
     sha256: str
@@ -66,7 +66,7 @@ def read_trajectory(content: bytes, file: str) -> Trajectory:
 
 
 def _fault_of(time: np.ndarray) -> tuple[str, str]:
-    """Return problem and remedy of times that are not finite or decrease."""
+    """Return the problem and its remedy if times are not finite or decrease."""
     if not np.all(np.isfinite(time)):
         row = int(np.argmin(np.isfinite(time)))
         return f"{time[row]} in row {row + 1} is not finite", "write a finite time in every row"
@@ -75,7 +75,7 @@ def _fault_of(time: np.ndarray) -> tuple[str, str]:
 
 
 def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:
-    """Return a column as float64, Booleans as 0 and 1; None for a column of texts."""
+    """Return a column as float64, with Booleans as 0 and 1; None for a column of texts."""
     if pyarrow.types.is_boolean(column.type):
         column = column.cast(pyarrow.int8())
     if not (pyarrow.types.is_integer(column.type) or pyarrow.types.is_floating(column.type)):

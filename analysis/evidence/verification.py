@@ -19,14 +19,14 @@ from .reproduction import Reproduction, reproduce
 from .studies import compare_report, known_studies
 from .sums import check_sums
 
-NAMED = 10  # files that were added, flaws of a manifest
+NAMED = 10  # most added files, or flaws of a manifest, that are listed
 
 
 @dataclass(frozen=True)
 class Verification:
-    """Findings on one archive: experiments simulated, ``studies`` repeated, ``problems`` and ``notes``.
+    """Findings on one archive: simulated experiments, repeated ``studies``, ``problems`` and ``notes``.
 
-    ``reproduced`` are the ``studies`` whose results equal their reports.
+    ``reproduced`` lists the ``studies`` whose results equal their stored reports.
     """
 
     file: str
@@ -43,8 +43,7 @@ def verify_archive(
     """Check the files of an .fmu or .ssp against its evidence, and repeat its experiments and studies.
 
     ``relative`` is the tolerance as in `reproduce`; ``timeout`` (s) limits each simulation and each trial of a
-    campaign. Raises InputError if the evidence is missing or cannot be read, or if an experiment exceeds a limit on
-    size.
+    campaign. Raises InputError if the evidence is missing or cannot be read, or if an experiment is too large.
     """
     files = ZippedFiles(read_input(archive.path, "give an .fmu or .ssp", ARCHIVE_BYTES), archive.label)
     manifest = read_manifest(files, archive.label)
@@ -80,7 +79,7 @@ def _repeat_studies(
     options: SystemOptions,
     timeout: float | None,
 ) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
-    """Return the repeated studies, those that equal their reports, and the differences of the others."""
+    """Return the repeated studies, the studies whose results equal their reports, and the differences of the others."""
     studies, reproduced, problems = [], [], []
     for related in manifest.files:
         if related.study is None or related.name is None or related.name not in files:

@@ -1,4 +1,4 @@
-"""Export of the blocks of a Python file to build/fmus in the working folder."""
+"""Export of the blocks in a Python file to build/fmus in the working folder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .request import ExportedFiles, ExportRequest
 
 
 def check_file_exists(file: Path) -> None:
-    """Reject a missing Python file; the error suggests the files that exist. Raises InputError."""
+    """Reject a Python file that does not exist; the error suggests existing files. Raises InputError."""
     if file.is_file():
         return
     siblings = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
@@ -31,7 +31,8 @@ def check_file_exists(file: Path) -> None:
 def find_block_file(name: str) -> Path | None:
     """Return the file of the working folder that defines a block: NAME.py, or the file with a class of that name.
 
-    None if the name is another block or system, or if no file defines it. Raises InputError if several files do.
+    None is returned if the name belongs to another block or system, or if no file defines it. Raises InputError if
+    several files contain such a class.
     """
     is_system = name in system_names() or Path(name, "SystemStructure.ssd").is_file()
     if not name.isidentifier() or name in catalogue() or is_system:
@@ -48,7 +49,7 @@ def find_block_file(name: str) -> Path | None:
 
 
 def export_file(file: Path, request: ExportRequest, only: str | None = None) -> ExportedFiles:
-    """Export the blocks of a file, or ``only`` one, to build/fmus, where the option `use` finds them by name.
+    """Export all blocks of a file, or the block ``only``, to build/fmus, where the option `use` finds them by name.
 
     Raises InputError.
     """

@@ -1,4 +1,4 @@
-"""Export of one FMU of the repository, built here or taken from the installed package."""
+"""Export of a single FMU of the repository, built here or copied from the installed package."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 
 
 def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:
-    """Write one FMU of the repository.
+    """Write an FMU of the repository.
 
-    An installed package contains the native FMUs of FMI 2.0 with libraries for all platforms. Those of FMI 3.0, which
-    few users need, are compiled on request, because they would double the size of the package. Raises InputError if the
+    An installed package contains the native FMUs of FMI 2.0 with libraries for all platforms. FMUs of FMI 3.0 are
+    compiled on request: few users need them, and they would double the size of the package. Raises InputError if the
     FMU cannot be built on this machine.
     """
     if flavour == "python":
@@ -31,7 +31,7 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
         files = read_zip(shipped_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
         files = {name: content for name, content in files.items() if not name.startswith(left_out)}
-        write_zip(path, add_evidence(block, files))  # with digests of only these files
+        write_zip(path, add_evidence(block, files))  # the manifest lists only these files
     elif not platforms:
         raise no_compiler(block.fmu_name, fmi)
     else:
@@ -39,18 +39,18 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
 
 
 def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
-    """Return the error for native FMUs without a C compiler, with its remedy."""
+    """Return the error, with its remedy, for native FMUs without a C compiler."""
     other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
     return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
 
 
 def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputError:
-    """Return the error for a block that cannot be compiled, with its remedy."""
+    """Return the error, with its remedy, for a block that cannot be compiled."""
     if fmi == 3:
         return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
     return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 
 def has_zig() -> bool:
-    """Return True if zig is available: it alone compiles for Windows on any machine, and against an old C library."""
+    """Return True if zig is available, the only compiler that targets Windows and old C libraries on any machine."""
     return "win64" in available_platforms()

@@ -14,7 +14,7 @@ from ...fmus_src.export.compilers import PLATFORMS, available_platforms, platfor
 
 @dataclass(frozen=True)
 class ExportRequest:
-    """Request of an export: ``name`` as for `perilune.export`, ``fmi`` and ``ssp`` versions.
+    """Request for an export: ``name`` as for `perilune.export`, and versions ``fmi`` and ``ssp`` of the standards.
 
     Raises InputError for incompatible options.
     """
@@ -40,7 +40,7 @@ class ExportRequest:
         check_file("`output`", self.output)
 
     def check_one_fmu(self) -> None:
-        """Reject options that do not apply to a system as one FMU. Raises InputError."""
+        """Reject options that cannot be used for the export of a system as one FMU. Raises InputError."""
         for option, is_chosen in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
             if is_chosen:
                 value = str(getattr(self, option))
@@ -51,7 +51,9 @@ class ExportRequest:
             raise InputError("`studies`", self.studies[0], problem, "leave out `studies` or `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
-        """Return the requested platforms; by default those of the installed package or of the available compilers."""
+        """Return the requested platforms, by default the platforms of the installed package or of the available
+        compilers.
+        """
         if self.platforms:
             return list(self.platforms)
         return platforms_of(2) if prebuilt and self.fmi == 2 and not IS_CHECKOUT else available_platforms(self.fmi)
@@ -59,7 +61,7 @@ class ExportRequest:
 
 @dataclass(frozen=True)
 class ExportedFiles:
-    """Written files with their flavours and platforms; no platforms if all FMUs are Python FMUs."""
+    """Written files, with the flavours and platforms of their FMUs; no platforms if all are Python FMUs."""
 
     paths: tuple[Path, ...]
     flavours: tuple[str, ...]

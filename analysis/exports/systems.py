@@ -1,4 +1,4 @@
-"""Export of a system's folder as one archive, with the FMUs that it refers to."""
+"""Export of a system's folder, with the FMUs to which it refers, as one archive."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ from .request import ExportRequest
 def export_system(
     archive: SystemArchive, path: Path, flavour: str, platforms: Sequence[str], request: ExportRequest
 ) -> None:
-    """Export a system's folder as one archive, including the FMUs of repository and working folder that it uses.
+    """Export a system's folder as one archive, including the FMUs that it uses from the repository and the working
+    folder.
 
     Raises InputError.
     """

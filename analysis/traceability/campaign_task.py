@@ -1,4 +1,4 @@
-"""Simulation task of a campaign's folder: requirements, samples, systems, trials, verdicts."""
+"""Simulation task written from a campaign's folder: requirements, samples, systems, trials, verdicts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parame
 
 
 def write_task(result: CampaignResult, path: Path) -> None:
-    """Write the task of a finished campaign with a folder to ``path`` (.stmd). Raises OSError."""
+    """Write the simulation task of a finished campaign that has a folder to ``path`` (.stmd). Raises OSError."""
     assert result.folder is not None  # the option has no effect without one
     folder, campaign = result.folder.absolute(), result.plan.campaign
     manifest = read_manifest(folder)
@@ -78,14 +78,14 @@ def write_task(result: CampaignResult, path: Path) -> None:
 
 
 def _sources(campaign: CampaignDocument | SourceDocument) -> Iterator[tuple[str, str]]:
-    """Yield label and content of a campaign's file and of the files that it extends."""
+    """Yield label and content of a campaign's file, and of the files that it extends."""
     yield campaign["label"].rpartition("/")[2], campaign["content"]
     for extended in campaign.get("extends", ()):
         yield from _sources(extended)
 
 
 def _system_files(manifest: CampaignManifest) -> Iterator[tuple[str, str]]:
-    """Yield name and content of the system's files, and of external FMUs and parameter sets."""
+    """Yield name and content of each file of the system, and of each external FMU and parameter set."""
     yield from manifest.system["files"].items()
     for key, content in manifest.elsewhere.items():
         kind, _, name = key.partition(":")

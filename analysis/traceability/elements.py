@@ -22,14 +22,14 @@ PARTICLES = ("Input", "Procedure", "Output", "Rationale")  # of a step, in the o
 
 
 def tag(prefix: str, name: str) -> str:
-    """Return a name in a namespace in the notation of lxml."""
+    """Return a namespaced tag in the notation of lxml."""
     return f"{{{NAMESPACES[prefix]}}}{name}"
 
 
 class Task:
     """A simulation task for the file ``path``: steps by phase.
 
-    Each file is described once, with its SHA3-256 in an SRMD document, and referred to afterwards.
+    Each file is described once, with its SHA3-256 in an SRMD document; further uses refer to this description.
     """
 
     def __init__(self, name: str, tool: str, path: Path) -> None:
@@ -46,7 +46,7 @@ class Task:
         return Step(self, etree.SubElement(self._phases[phase], tag("stmd", name)))
 
     def add_file(self, parent: etree._Element, path: Path, kind: str, mime: str, description: str) -> None:
-        """Describe a file below an element, or refer to its earlier description. Raises OSError."""
+        """Describe a file in a child of an element, or refer to its earlier description. Raises OSError."""
         if path in self._known:
             etree.SubElement(parent, tag("stc", "ResourceReference"), {tag("xlink", "href"): f"#{self._known[path]}"})
             return
@@ -83,7 +83,7 @@ class Step:
         etree.SubElement(resource, tag("stc", "Content")).text = text
 
     def classify(self, name: str, entries: Mapping[str, str]) -> None:
-        """Add keywords and their texts as a classification; do nothing without keywords."""
+        """Add a classification of keywords with their texts; do nothing if there are no keywords."""
         if not entries:
             return
         classification = etree.SubElement(self._element, tag("stc", "Classification"), type=name)

@@ -1,4 +1,4 @@
-"""Builder of a system's FMU: description, sources, libraries, parameter sets, pages."""
+"""Builder of a system's FMU: description, sources, libraries, parameter sets, documentation."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def build_system_fmu(
     *,
     portable: bool,
 ) -> None:
-    """Build one FMU of a system at ``path``; the build is reproducible to the byte.
+    """Build a system as one FMU at ``path``; repeated builds are identical to the byte.
 
-    ``portable`` compiles with zig even if the machine has another compiler. Raises InputError for content that one FMU
-    cannot have, `CompilerMissing` and `CompilationFailed`.
+    ``portable`` compiles with zig even if the machine has another compiler. Raises InputError for a system that cannot
+    be one FMU, `CompilerMissing` and `CompilationFailed`.
     """
     slots, options = request.slots, request.options
     preparation = Preparation(archive, options, slots)
@@ -74,7 +74,7 @@ def build_system_fmu(
 def _files(
     name: str, model: SystemModel, variables: Variables, others: ConvertedSets, is_ours: bool, guid: str
 ) -> dict[str, bytes]:
-    """Return the files of the FMU except binaries and manifest."""
+    """Return the files of the FMU except its binaries and manifest."""
     about = model.network.description.system.about or f"the system {name}"
     sources = read_wrapper(2, "system")
     sources |= {file_name(source): write_component_header(source).encode() for source in model.sources}
@@ -145,7 +145,7 @@ def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
 
 
 def _model_identifier(system: str, model: SystemModel) -> str:
-    """Return the C identifier of a system's FMU, distinct from those of its components and other files."""
+    """Return the C identifier of a system's FMU, which differs from the names of its components and of other files."""
     name = re.sub(r"\W", "_", system, flags=re.ASCII)
     name = name if not name[:1].isdigit() else f"fmu_{name}"
     used = {source.prefix.removesuffix("_") for source in model.sources} | {

@@ -1,4 +1,4 @@
-"""Variants of a system inside one FMU: one for each choice of candidates for its slots."""
+"""Variants of a system inside one FMU: one variant for each combination of candidates for its slots."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ NOT_ONE = "export the system as .ssp"
 
 @dataclass(frozen=True)
 class SlotChoice:
-    """A system with one candidate in each slot: ``candidates`` by slot, and their ``numbers``, counted from 1."""
+    """A system with one candidate in each slot: ``candidates`` by slot, and their ``numbers``, counted from 1.
+
+    A slot is a component with several candidate FMUs, of which a parameter of the exported FMU selects one.
+    """
 
     candidates: Mapping[str, str]
     numbers: tuple[int, ...]
@@ -33,12 +36,12 @@ class SlotChoice:
 
     @property
     def name(self) -> str:
-        """The suffix of C functions; empty if there are no slots."""
+        """The suffix of the choice's C functions; empty if there are no slots."""
         return "".join(f"_{number}" for number in self.numbers)
 
 
 class Preparation:
-    """Prepares the choices of a system; loaded FMUs are shared between them."""
+    """Prepares the choices of a system, which share their loaded FMUs."""
 
     def __init__(self, archive: SystemArchive, options: SystemOptions, slots: Mapping[str, Sequence[str]]) -> None:
         self.archive = archive
@@ -68,11 +71,11 @@ class Preparation:
         return choices
 
     def combinations(self) -> list[dict[str, str]]:
-        """Return, for every choice, the candidate of each slot."""
+        """Return the candidate of each slot, for every choice."""
         return [dict(zip(self.slots, use, strict=True)) for use in itertools.product(*self.slots.values())]
 
     def choice(self, use: Mapping[str, str], *more: str) -> SlotChoice:
-        """Return the system with these candidates; the parameter sets ``more`` apply after the chosen ones.
+        """Return the system with these candidates; the parameter sets ``more`` are applied after the chosen sets.
 
         Raises InputError.
         """
@@ -93,7 +96,9 @@ class Preparation:
         return SlotChoice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
     def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
-        """Return the values of the option `set`; of SLOT.CANDIDATE.PARAMETER only those of these candidates."""
+        """Return the values of the option `set` for these candidates, without values SLOT.CANDIDATE.PARAMETER of
+        others.
+        """
         chosen = {}
         for name, number in self.options.set.items():
             slot, _, inside = name.partition(".")
@@ -117,7 +122,7 @@ class Preparation:
 
 
 def candidate_name(use: str) -> str:
-    """Return the name of a candidate: the block, or the stem of the file."""
+    """Return the name of a candidate: the name of its block, or the stem of its file."""
     return Path(use).stem if names_fmu(use) else use
 
 
@@ -139,9 +144,9 @@ def _no_start(network: Network, name: str) -> float | bool | str:
 
 
 def _start_reached(network: Network, name: str) -> float | None:
-    """Return the value of a connector at which the first component input that it drives has its start value.
+    """Return the value of a connector that gives the first component input it drives that input's start value.
 
-    None if the connector drives no component input through a linear conversion.
+    None is returned if the connector drives no component input through a linear conversion.
     """
     for link in network.driver.values():
         if link.source.name != name or link.transformation.table or not link.transformation.factor:
@@ -161,13 +166,13 @@ def _start_reached(network: Network, name: str) -> float | None:
 
 
 def check_type(network: Network, node: Node) -> None:
-    """Reject a system connector of a type that blocks do not have. Raises InputError."""
+    """Reject a system connector of a type that no block has. Raises InputError."""
     if node.type_name in TEXTS:
         raise InputError(network.file, node.where, f"of type {node.type_name}, which is not supported", NOT_ONE)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:
-    """Return the connectors of the system, of one kind, by name."""
+    """Return the system's connectors of one kind, by name."""
     return [name for name, connector in network.description.system.connectors.items() if connector.kind == kind]
 
 
@@ -179,7 +184,9 @@ def _check(prepared: PreparedSystem) -> None:
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
-    """Return the number (from 1) of a slot's default candidate: the system's own if possible, else the first."""
+    """Return the number (from 1) of a slot's default candidate: the FMU used by the system, or 1 if it is no
+    candidate.
+    """
     requested = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
@@ -188,9 +195,10 @@ def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem,
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:
-    """Return the connectors along which a parameter gets its value, from the outermost with a value inwards.
+    """Return the connectors through which a parameter gets its value, from the outermost connector with a value
+    inwards.
 
-    The last one is ``target``. Empty if no connector before it has a value.
+    The last connector is ``target``. The chain is empty if no connector before it has a value.
     """
     chain = [target]
     while chain[-1] in network.driver:
@@ -202,7 +210,7 @@ def parameter_chain(network: Network, values: Mapping[str, float | str], target:
 
 
 def check_slots(slots: Mapping[str, Sequence[str]], network: Network) -> None:
-    """Reject a slot that is not a component. Raises InputError."""
+    """Reject a slot without a component of the same name. Raises InputError."""
     for slot in slots:
         if slot not in network.fmus:
             raise InputError("`slots`", slot, "no such component", suggestion(slot, network.fmus))

@@ -1,6 +1,6 @@
-"""C source of a type of component, derived from that of its FMU.
+"""C source of a component type, derived from the C source of its FMU.
 
-The FMI wrapper is removed, all names get a prefix, and functions to initialise and to step the component are added.
+The FMI wrapper is removed, all names get a prefix, and functions are added that initialise and step the component.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...runtime.system.fmu import Fmu
 
 SHARED = ("kernel_math.h", "kernel_vectors.h", "block_elements.h")  # shared by all components of a system
 END = FOOTER.format(fmi=2)
-# Definitions in a block's file begin in the first column.
+# Definitions in a block's file start in the first column.
 STRUCT = re.compile(r"^typedef struct (\w+) \{", re.MULTILINE)
 STATIC = re.compile(r"^static [\w *]*?(\w+)(?= ?[(\[=])", re.MULTILINE)
 MACRO = re.compile(r"^#define (\w+)", re.MULTILINE)
@@ -85,9 +85,9 @@ class StructMember:
 
 @dataclass(frozen=True)
 class BlockCode:
-    """The C ``text`` of an FMU's block with names that begin with ``prefix``.
+    """C code of a block: its source ``text``, in which all names begin with ``prefix``.
 
-    ``members`` are its variables in the order of value references.
+    ``members`` are the variables of the block in the order of value references.
     """
 
     prefix: str
@@ -101,20 +101,20 @@ class BlockCode:
 
     @property
     def type_name(self) -> str:
-        """The C type of a component: a block, and the number of samples taken."""
+        """The C type of a component: a block with its number of samples taken so far."""
         return f"{self.prefix}Component"
 
     @property
     def parameters_and_inputs(self) -> dict[str, bool]:
-        """The struct members that contain parameters and inputs; True for arrays."""
+        """The members of the block's struct that contain parameters and inputs; the value is True for arrays."""
         paths = [each.path for each in self.members if each.role in RETAINED_ROLES]
         return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in paths}
 
 
 def read_component_source(fmu: Fmu, name: str) -> BlockCode:
-    """Read the C source of one of Perilune's FMUs; its names get the prefix ``name``_.
+    """Read the C source of one of Perilune's FMUs, and prefix its names with ``name``_.
 
-    Raises InputError for source of another build.
+    Raises InputError for a source from another build.
     """
     sources = fmu.read_sources()
     main = sources.get(f"{fmu.description.coSimulation.modelIdentifier}.c", "")
@@ -135,7 +135,7 @@ def read_component_source(fmu: Fmu, name: str) -> BlockCode:
 
 
 def rename(text: str, prefix: str) -> str:
-    """Return a block's source with a prefix on all names that it defines; comments and strings remain unchanged."""
+    """Return a block's source with a prefix on all names that it defines, except in comments and strings."""
     defined = {name for pattern in (STRUCT, STATIC, MACRO) for name in pattern.findall(text)} | {"Block"}
     checked = set(CHECKED.findall(text))
     names: Mapping[str, str] = {
@@ -151,7 +151,7 @@ def rename(text: str, prefix: str) -> str:
 
 
 def write_component_header(source: BlockCode) -> str:
-    """Return the header of a type of component, which the system's source includes."""
+    """Return the header of a component type, which is included in the system's source."""
     name = source.prefix.removesuffix("_")
     return FILE.format(
         name=name,
@@ -165,7 +165,7 @@ def write_component_header(source: BlockCode) -> str:
 
 
 def _restore_starts(source: BlockCode) -> list[str]:
-    """Return the statements that restore start values of a block but retain its parameters and inputs."""
+    """Return the statements that restore a block's start values, except for its parameters and inputs."""
     retained = [_retain(member, is_array) for member, is_array in source.parameters_and_inputs.items()]
     begin = f"self->block = {source.prefix}STARTS;"
     return [f"const {source.block} given = self->block;", begin, *retained] if retained else [begin]
@@ -178,5 +178,5 @@ def _retain(member: str, is_array: bool) -> str:
 
 
 def file_name(source: BlockCode) -> str:
-    """Return the name of a component's header."""
+    """Return the file name of a component type's header."""
     return f"{source.prefix.removesuffix('_')}.h"

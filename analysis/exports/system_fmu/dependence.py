@@ -1,4 +1,4 @@
-"""Direct dependence of a system's outputs on its inputs within one step, through feedthrough of components."""
+"""Direct dependence of a system's outputs on its inputs within a step, caused by feedthrough of components."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from .choices import system_connectors
 def find_dependencies(
     systems: Sequence[PreparedSystem], inputs: Sequence[str], faulty: Sequence[str]
 ) -> dict[str, list[str]]:
-    """Return the inputs on which each output depends directly in at least one of the systems (one per choice).
+    """Return the inputs on which each output depends directly in at least one of the systems (one system per choice).
 
-    Fault inputs of a connector are included if its value affects the output in the same step. With Jacobi's algorithm
-    no dependence passes through a component, because all components step with values from the start of the step.
+    Fault inputs of a connector are included if the connector's value affects the output in the same step. With Jacobi's
+    algorithm no dependence passes through a component, because all components step with values from the start of the
+    step.
     """
     sources = {**{name: [name] for name in inputs}, **{name: fault_inputs(name) for name in faulty}}
     direct: dict[str, list[str]] = {}
@@ -27,14 +28,15 @@ def find_dependencies(
 
 
 def fault_inputs(connector: str) -> list[str]:
-    """Return the names of the FMU's inputs for the faults of a connector: kind and value."""
+    """Return the names of the FMU's inputs for the faults of a connector: the fault's kind, and its value."""
     return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
 def _follow(prepared: PreparedSystem, start: str) -> list[str]:
-    """Return the signals that propagate the value at ``start``: itself, or the outputs of a parameter's component.
+    """Return the signals that propagate the value at ``start``: the signal itself, or all outputs of a parameter's
+    component.
 
-    A parameter has none if its component steps before its inputs are updated.
+    There are none for a parameter if its component steps before its inputs are updated.
     """
     component, variable = split_name(start, prepared.network.fmus)
     known = prepared.network.fmus[component].variables if component else {}

@@ -14,16 +14,17 @@ from ...runtime.system.network import Network
 
 
 class Enumerations:
-    """Enumeration types of signals and connectors by name; ``networks`` are those of all choices of candidates."""
+    """Enumeration types of signals and connectors by name; ``networks`` are the networks of all choices."""
 
     def __init__(self, networks: Sequence[Network]) -> None:
         self._networks = networks
-        self._in_fmus: dict[str, Mapping[str, EnumerationType]] = {}  # by digest
+        self._in_fmus: dict[str, Mapping[str, EnumerationType]] = {}  # by the FMU's digest
 
     def of(self, name: str) -> EnumerationType | None:
         """Return the enumeration type of a signal or connector.
 
-        None if it has no such type, or if candidates differ in its members: it then becomes an Integer.
+        None is returned if the type is not an enumeration, or if its members differ between candidates: the FMU then
+        declares an Integer.
         """
         types = [each for network in self._networks for each in self._in_network(network, name)]
         first = types[0] if types else None
@@ -47,7 +48,7 @@ class Enumerations:
         node = network.nodes.get(name)
         if node is None or not node.enumeration:
             return [] if node is None else [None]
-        for other in network.nodes.values():  # a connector without a type shares the members of its link
+        for other in network.nodes.values():  # an untyped connector shares the members of its link
             if other.component is not None and other.enumeration is node.enumeration:
                 return [self.in_fmu(network.fmus[other.component])[other.variable]]
         declared = network.description.enumerations

@@ -26,7 +26,7 @@ from .choices import SlotChoice, check_type, system_connectors
 from .component_source import BlockCode, StructMember, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-# Names of its headers, which a file of the same name would replace.
+# Headers of the C library, which a file of the same name would replace.
 C_LIBRARY = frozenset(
     re.findall(
         r"\w+",
@@ -43,7 +43,7 @@ ALWAYS = (float("-inf"), float("inf"))
 class SlotCandidate:
     """A component, or a candidate of a slot.
 
-    ``identifier`` is its name in C, ``label`` the prefix of its variables.
+    ``identifier`` is its name in the C code, ``label`` the prefix of its variables' names.
     """
 
     component: str
@@ -57,13 +57,13 @@ class SlotCandidate:
         return self.source.members[self.fmu.variables[variable].reference]
 
     def path_of(self, variable: str) -> str:
-        """Return the path of a variable in the system's struct."""
+        """Return the path of a variable inside the system's struct."""
         return f"{self.identifier}.block.{self.member(variable).path}"
 
 
 @dataclass
 class Identifiers:
-    """Generator of unique C identifiers; ``used`` are those already in use."""
+    """Generator of unique C identifiers; ``used`` contains the identifiers already in use."""
 
     used: set[str] = field(default_factory=set)
 
@@ -80,7 +80,10 @@ class Identifiers:
 
 @dataclass(frozen=True)
 class ChoiceProgram:
-    """The instructions of one choice, with the list they were assembled from; ``candidates`` by component number."""
+    """The program of one choice, and the instruction list from which it was assembled.
+
+    ``candidates`` are in the order of component numbers.
+    """
 
     choice: SlotChoice
     program: arrays.Program
@@ -94,12 +97,12 @@ class ChoiceProgram:
 
     @cached_property
     def names(self) -> list[str]:
-        """The name of the signal in each slot."""
+        """The name of the signal in each slot of the program."""
         return list(self.layout.slots)
 
     @property
     def starts(self) -> dict[str, float]:
-        """The initial values of signals that have one before the first exchange."""
+        """The initial values by signal, for signals with a value before the first exchange."""
         initial = zip(self.names, self.program.initial.tolist(), strict=True)
         return {name: start for name, start in initial if not math.isnan(start)}
 
@@ -107,8 +110,8 @@ class ChoiceProgram:
 class SystemModel:
     """Model of the FMU: choices, candidates, signals and C identifiers.
 
-    ``exposed`` are the signals that become local variables of the FMU, ``faulty`` the connectors and tunable parameters
-    for whose faults it has inputs. Raises InputError for unknown names, and for C source of another build.
+    The signals ``exposed`` become local variables of the FMU. The FMU has fault inputs for the connectors and tunable
+    parameters ``faulty``. Raises InputError for unknown names, and for C source from another build.
     """
 
     def __init__(self, choices: Sequence[SlotChoice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
@@ -160,7 +163,7 @@ class SystemModel:
         return [name for name in names if name in self.signals]
 
     def _check_alike(self, name: str) -> None:
-        """Reject a signal whose type or unit differs between candidates, since one variable represents it.
+        """Reject a signal with a type or unit that differs between candidates, since a single variable represents it.
 
         Raises InputError.
         """
@@ -195,7 +198,7 @@ class SystemModel:
         return self._candidates[component, candidate]
 
     def _find_exposed(self, names: Sequence[str]) -> list[str]:
-        """Return the variables that these names stand for, in any candidate. Raises InputError."""
+        """Return the variables to which these names refer, in any candidate. Raises InputError."""
         exposed: dict[str, None] = {}
         for name in names:
             error = None
@@ -260,7 +263,7 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[SlotChoice], names: Sequence[str]) -> list[str]:
-    """Return the connectors and tunable parameters with fault inputs; all choices must have them. Raises InputError."""
+    """Return the connectors and tunable parameters with fault inputs, which every choice must have. Raises InputError."""
     for name in names:
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)

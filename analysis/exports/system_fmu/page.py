@@ -43,7 +43,7 @@ def system_page(
     dependencies: Mapping[str, Sequence[str]],
     others: ConvertedSets,
 ) -> bytes:
-    """Return the HTML page: components, simulation, variables."""
+    """Return the HTML page about the system's components, simulation and variables."""
     body = [builder.H1(name), builder.P(about), builder.H2("Components")]
     body.append(
         _table(["component", "block"], [[candidate.label, candidate.fmu.name] for candidate in model.candidates])

@@ -1,4 +1,4 @@
-"""Conversion of a system's further parameter sets to parameter sets of its FMU."""
+"""Conversion of a system's other parameter sets to parameter sets of its FMU."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ RESOURCES = "resources/"
 
 @dataclass(frozen=True)
 class ConvertedSets:
-    """Converted parameter sets: ``files`` by name in the FMU; ``unfit`` states why others do not fit, a line each."""
+    """Converted parameter sets: ``files`` by name in the FMU; ``unfit`` states why other sets cannot be converted, one
+    line each.
+    """
 
     files: Mapping[str, bytes]
     unfit: Sequence[str]
@@ -29,7 +31,7 @@ class ConvertedSets:
 def other_parameter_sets(
     preparation: Preparation, system: SystemElement, declared: Sequence[FmuVariable]
 ) -> ConvertedSets:
-    """Return the further sets of the ``system``, each reduced to the ``declared`` variables that it changes."""
+    """Return the other sets of the ``system``, each reduced to the values of ``declared`` variables that it changes."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
     for file in _others(preparation, system):

@@ -1,4 +1,4 @@
-"""Reference trajectory of a system's FMU, from a simulation with the FMUs of its components; equal to the last bit."""
+"""Reference trajectory of a system's FMU, simulated with the FMUs of its components and equal to the last bit."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"
 
 
 def find_default_program(programs: Sequence[ChoiceProgram], defaults: Mapping[str, int]) -> ChoiceProgram:
-    """Return the program of the default choice; ``defaults`` are candidates by slot, counted from 1."""
+    """Return the program of the default choice; ``defaults`` are the numbers, from 1, of the candidates by slot."""
     return next(program for program in programs if program.choice.numbers == tuple(defaults.values()))
 
 
@@ -28,7 +28,7 @@ def record_reference(
 ) -> tuple[dict[str, bytes], list[Related]]:
     """Record outputs and exposed signals with all parameters and inputs at their start values.
 
-    Signals that only other candidates have are omitted; without any signal there are no files.
+    Signals that exist only with other candidates are omitted; if no signals remain, no files are returned.
     """
     visible = [each.name for each in declared if each.causality in ("output", "local")]
     visible = [each for each in visible if each in program.layout.slots]

@@ -1,4 +1,4 @@
-"""Request for a system as one FMU."""
+"""Request for the export of a system as one FMU."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ...runtime.system.options import SystemOptions
 
 @dataclass(frozen=True)
 class OneFmu:
-    """Request for a system as one FMU.
+    """Request for the export of a system as one FMU. Raises InputError.
 
-    ``slots`` are the candidates by component, ``exposed`` the signals to expose, ``faulty`` the connectors and tunable
-    parameters with fault inputs, ``options`` the options of the system. Raises InputError.
+    ``slots`` maps components to their candidates, ``exposed`` lists the signals to expose, and ``faulty`` the
+    connectors and tunable parameters with fault inputs. ``options`` are the options of the system.
     """
 
     slots: Mapping[str, Sequence[str]]

@@ -1,7 +1,7 @@
 """C statements for the instructions of a system's steps, applied to the blocks inside its struct.
 
-They repeat the operations of `loop/c/loop.c` in the same order, so results are equal to the last bit. `self` is the
-system, `s` are its signals; on failure a statement stores a message in `fault` and returns.
+They repeat the operations of `loop/c/loop.c` in the same order, so results are equal to the last bit. In the C code,
+`self` is the system and `s` the array of its signals. On failure a statement stores a message in `fault` and returns.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ SKIPPED = (codes.SETUP, codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.READ_BAC
 
 @dataclass
 class ChoiceStatements:
-    """Writer of the statements of one choice; ``constants`` are the C constants of signals by name.
+    """Writer of the C statements of one choice; ``constants`` maps signals to the C constants of their indices.
 
-    ``is_starting`` is True during initialisation. ``unsettled`` are the components whose inputs were set since their
-    last computation.
+    ``is_starting`` is True during initialisation. ``unsettled`` contains the numbers of components with inputs that
+    were set since their last computation.
     """
 
     choice: ChoiceProgram
@@ -38,7 +38,7 @@ class ChoiceStatements:
     is_starting: bool = False
 
     def initialisation(self) -> list[str]:
-        """Return the statements of the initialisation: from parameters and inputs to the first outputs."""
+        """Return the statements of the initialisation, from parameters and inputs to the first outputs."""
         program = self.choice.program
         self.unsettled, self.is_starting = set(range(len(self.choice.candidates))), True
         lines = self._of(range(program.reset_end, int(program.phases[0])))
@@ -46,12 +46,12 @@ class ChoiceStatements:
         return lines
 
     def step(self, phase: int) -> list[str]:
-        """Return the statements of one phase of the repeated steps."""
+        """Return the statements of one phase of a step."""
         first, end = self.choice.program.phases[phase : phase + 2].tolist()
         return self._of(range(first, end))
 
     def renewal(self, component: int, rows: np.ndarray) -> list[str]:
-        """Return the statements that pass new system inputs to a component, for these instruction rows."""
+        """Return the statements that pass new system inputs to a component, from the instructions in these rows."""
         candidate = self.choice.candidates[component]
         lines: list[str] = []
         targets: list[int] = []
@@ -76,7 +76,7 @@ class ChoiceStatements:
         return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
     def set_variable(self, candidate: SlotCandidate, slot: int) -> list[str]:
-        """Return the statements that write the signal of a slot to its variable in a component."""
+        """Return the statements that copy the signal in a slot to a variable of a component."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
         variable = candidate.fmu.variables[self.choice.names[slot].removeprefix(f"{candidate.component}.")]
@@ -102,7 +102,7 @@ class ChoiceStatements:
         return [(slot, self.signal(slot)) for slot in range(row.first, row.first + row.size)]
 
     def variable(self, row: Instruction, slot: int) -> tuple[str, str]:
-        """Return path and kind of the component's variable for a slot."""
+        """Return path and kind of a component's variable, for the slot of its signal."""
         candidate = self.candidate(row)
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         return f"self->{candidate.identifier}.block.{member.path}", member.kind
@@ -111,7 +111,7 @@ class ChoiceStatements:
         return self.choice.candidates[row.component]
 
     def initialise_component(self, component: int) -> list[str]:
-        """Return the statements that initialise a component whose inputs were set since its last computation."""
+        """Return the statements that initialise a component if its inputs were set since its last computation."""
         if not self.is_starting or component not in self.unsettled:
             return []
         self.unsettled.discard(component)
@@ -121,7 +121,7 @@ class ChoiceStatements:
 
 
 def _check_bounds(variable: ScalarVariable, signal: str, name: str) -> list[str]:
-    """Return the checks of a tunable parameter, including its fault, against the bounds of the FMU."""
+    """Return the statements that check a tunable parameter, with any fault applied, against the bounds in its FMU."""
     lines = [f"CHECK_FINITE({signal}, {quoted(name)})"] if variable.type == "Real" else []
     for sign, bound, side in (
         ("<", variable.minimum, "below its minimum"),
@@ -134,7 +134,7 @@ def _check_bounds(variable: ScalarVariable, signal: str, name: str) -> list[str]
 
 
 def check(subject: str) -> str:
-    """Return a statement that returns if the previous one failed in ``subject``."""
+    """Return a statement that returns from the C function if the previous statement failed in ``subject``."""
     return f"FAILED_IN({quoted(subject)})"
 
 
@@ -177,7 +177,7 @@ def _map(to: ChoiceStatements, row: Instruction) -> list[str]:
 def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], subject: str) -> list[str]:
     """Return the statements that map a value by a table.
 
-    An entry from NaN leaves unlisted values unchanged; without it an unlisted value is a failure.
+    A table with an entry for NaN leaves unlisted values unchanged; otherwise an unlisted value is a failure.
     """
     tests, otherwise = [], f"FAIL({quoted(subject)}, {quoted('a mapping has no entry for its value')})"
     for entry, becomes in entries:

@@ -58,7 +58,7 @@ FOOTER = """\
 
 
 def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
-    """Return the main source file of the FMU with this GUID; it includes all other files."""
+    """Return the main source file of the FMU with this GUID; it includes all other source files."""
     header = HEADER.format(
         name=name,
         about=comment(about),
@@ -140,7 +140,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
 
 
 def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    """Return the statements that read values set by the importer: system inputs, and parameters with fault inputs."""
+    """Return the statements that read the values set by the importer: system inputs, and parameters with fault inputs."""
     paths = {each.name: each.path for each in variables.declared}
     sources = {model.signals[name]: paths[name] for name in model.inputs if name in model.signals}
     for tuned in variables.tuned:
@@ -152,7 +152,7 @@ def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variable
 def _renewal(statements: ChoiceStatements, phase: int) -> list[str]:
     """Return the statements that pass system inputs and faulty parameters to components at the start of a step.
 
-    They concern the components that step with the inputs of the start.
+    Only components that step with the inputs at the start of the step need these statements.
     """
     program = statements.choice
     prepared = program.prepared
@@ -162,7 +162,9 @@ def _renewal(statements: ChoiceStatements, phase: int) -> list[str]:
 
 
 def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
-    """Return the system parameters that are signals, each with its chain of connectors from the one with the value."""
+    """Return the system parameters that are signals, each with its chain of connectors, starting from the connector
+    with the value.
+    """
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
     names = [node.name for node in nodes if node.component is None and node.kind in PARAMETERS]
@@ -171,7 +173,7 @@ def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[s
 
 
 def _check_faults(model: SystemModel) -> list[str]:
-    """Return the checks of the fault inputs."""
+    """Return the statements that check the fault inputs."""
     kinds = {"Real": "KIND_REAL", "Boolean": "KIND_BOOLEAN"}
     return [
         f"CHECK_FAULT(self->fault[{number}], {kinds.get(model.types[name], 'KIND_INTEGER')}, {quoted(f'fault.{name}')})"
@@ -180,7 +182,7 @@ def _check_faults(model: SystemModel) -> list[str]:
 
 
 def _end_step(statements: ChoiceStatements, model: SystemModel, variables: Variables) -> list[str]:
-    """Return the statements at the end of a step: end of the system, applied faults, outputs."""
+    """Return the statements at the end of a step: termination of the system, applied faults, outputs."""
     program = statements.choice
     finished = program.program.finished_slot
     lines = [f"self->has_finished = {statements.signal(finished)} != 0.0;"] if finished >= 0 else []
@@ -189,14 +191,14 @@ def _end_step(statements: ChoiceStatements, model: SystemModel, variables: Varia
         if each.causality in ("output", "local") and each.name in program.layout.slots:
             signal = f"s[{model.signals[each.name]}]"
             convert = {"KIND_REAL": signal, "KIND_INTEGER": f"(int64_t){signal}", "KIND_BOOLEAN": f"{signal} != 0.0"}
-            if each.kind == "KIND_INTEGER" and model.faulty:  # of a bias
+            if each.kind == "KIND_INTEGER" and model.faulty:  # a biased value may be fractional
                 lines.append(f"CHECK_WHOLE({signal}, {quoted(each.name)})")
             lines.append(f"self->{each.path} = {convert[each.kind]};")
     return lines
 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
-    """Return the functions that the wrapper calls; they select the choice by the parameters of the slots."""
+    """Return the functions that the wrapper calls; they select the choice from the slot parameters."""
     lines = CodeLines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")
@@ -211,7 +213,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 
 def _dispatch(lines: CodeLines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
-    """Add a call of each choice's function under the condition that the slot parameters select it.
+    """Add a call of each choice's function, on the condition that the slot parameters select this choice.
 
     ``programs`` are ordered with the candidate of the last slot varying fastest.
     """

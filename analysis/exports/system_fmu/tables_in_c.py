@@ -14,7 +14,7 @@ from .variables import FmuVariable, Variables
 
 @dataclass(frozen=True)
 class StructElement:
-    """An element of the system's struct: its role in the wrapper, and the range of its start value."""
+    """An element of the system's struct, with its role in the wrapper and the permitted range of its start value."""
 
     name: str
     path: str
@@ -34,7 +34,7 @@ def _row_of(each: FmuVariable) -> StructElement:
 
 
 def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, float] | None:
-    """Return minimum and maximum of a Real, or of an Integer with bounds; None for others."""
+    """Return minimum and maximum of a Real, or of an Integer with bounds; None for other types."""
     if kind == "KIND_BOOLEAN" or (kind == "KIND_INTEGER" and minimum is None and maximum is None):
         return None
     return (-LARGEST if minimum is None else float(minimum), LARGEST if maximum is None else float(maximum))
@@ -43,7 +43,7 @@ def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, 
 def _list_hidden(model: SystemModel, variables: Variables) -> list[StructElement]:
     """Return the rows of state elements that modelDescription.xml does not declare."""
     declared = {each.path for each in variables.declared}
-    faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare these
+    faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare their values
     hidden = [
         StructElement(
             each.name, each.path, each.kind, range=_range(each.kind, each.variable.minimum, each.variable.maximum)
@@ -76,7 +76,7 @@ def _list_hidden(model: SystemModel, variables: Variables) -> list[StructElement
 
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
-    """Return the tables of the wrapper: GUID, and elements by value reference, undeclared ones last."""
+    """Return the tables of the wrapper: GUID, and elements by value reference, with undeclared elements last."""
     rows = [*map(_row_of, variables.declared), *_list_hidden(model, variables)]
     lines = CodeLines()
     lines.add(f'#define MODEL_GUID "{guid}"')

@@ -1,4 +1,4 @@
-"""Variables of a system's FMU: declared ones, and elements of the state only."""
+"""Variables of a system's FMU: declared variables, and undeclared elements of its state."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ FAULT_KINDS = numbered_type("FaultKind", ("none", "override", "bias", "freeze"),
 class FmuVariable:
     """A variable declared in modelDescription.xml; its value is at ``path`` in the system's struct.
 
-    ``causality`` is input, output, parameter or local; ``enumeration`` is the type of an Enumeration. An unconnected
-    input of a component is a parameter.
+    ``causality`` is input, output, parameter or local; an unconnected input of a component is a parameter.
+    ``enumeration`` is the type of an Enumeration.
     """
 
     name: str
@@ -47,7 +47,7 @@ class FmuVariable:
 
     @property
     def role(self) -> str:
-        """The role that determines the wrapper's permissions."""
+        """The role, which determines whether the wrapper permits setting the variable."""
         parameter = "ROLE_TUNABLE" if self.tunable else "ROLE_PARAMETER"
         return {"input": "ROLE_INPUT", "parameter": parameter}.get(self.causality, "ROLE_OUTPUT")
 
@@ -59,10 +59,11 @@ class FmuVariable:
 
 @dataclass(frozen=True)
 class PassedParameter:
-    """A component's parameter whose value follows from a system parameter.
+    """A parameter of a component that gets its value from a system parameter.
 
-    ``path`` is the parameter's, ``chain`` are the connectors from the system parameter to it in the ``network``, and
-    ``tunable`` is True if it may be set between steps.
+    ``path`` is the path of the component's parameter in the system's struct. ``chain`` contains the connectors in the
+    ``network`` from the system parameter to the component's. ``tunable`` is True if the parameter may be set between
+    steps.
     """
 
     path: str
@@ -74,7 +75,7 @@ class PassedParameter:
 
 @dataclass(frozen=True)
 class TunedParameter:
-    """A tunable parameter of a component with fault inputs; its value without faults is at ``path``."""
+    """A tunable component parameter with fault inputs; its value without faults is at ``path``."""
 
     candidate: SlotCandidate
     variable: ScalarVariable
@@ -82,7 +83,7 @@ class TunedParameter:
 
     @property
     def name(self) -> str:
-        """The name of its signal."""
+        """The name of the parameter's signal."""
         return f"{self.candidate.component}.{self.variable.name}"
 
     @property
@@ -92,11 +93,12 @@ class TunedParameter:
 
 
 class Variables:
-    """The variables of the FMU and values of its parameters.
+    """Variables of the FMU, and values of its parameters.
 
-    ``declared`` are the variables of the FMU, ``passed`` the component parameters that follow from system parameters,
-    ``parameter_paths`` the paths of the latter by connector, ``starts`` the values that differ from the defaults of the
-    blocks. ``effective`` are the values of all parameters and inputs by name.
+    ``declared`` contains the variables of the FMU, ``passed`` the component parameters that get their values from
+    system parameters, and ``parameter_paths`` the paths of these system parameters by connector. ``starts`` contains
+    the start values that differ from the defaults of the blocks, and ``effective`` the values of all parameters and
+    inputs by name.
     """
 
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
@@ -133,7 +135,7 @@ class Variables:
             if node.component is None and node.kind in PARAMETERS:
                 check_type(self.model.network, node)
                 if parameter_chain(self.model.network, self._values, name):
-                    continue  # an outer connector has a value
+                    continue  # the value comes from an outer connector
                 variable = self._of_node(
                     node, "parameter", "parameter", "parameter of the system", _convert(node, value)
                 )
@@ -141,7 +143,7 @@ class Variables:
                 yield variable
 
     def _are_readers_tunable(self, declared: FmuVariable) -> bool:
-        """Return True for a system parameter that components read only as tunable parameters.
+        """Return True if only tunable parameters of components read a system parameter.
 
         A parameter that drives signals or inputs, which are set at initialisation, is fixed.
         """
@@ -258,7 +260,7 @@ class Variables:
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, SlotCandidate]]:
-    """Yield each candidate once, with the first choice that contains it."""
+    """Yield each candidate once, with the program of the first choice that contains it."""
     known: set[str] = set()
     for program in model.programs:
         for candidate in program.candidates:
@@ -268,7 +270,7 @@ def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, SlotCandi
 
 
 def _is_tunable(variable: ScalarVariable) -> bool:
-    """Return True for a variable that the component's FMU permits to be set between steps."""
+    """Return True if the component's FMU permits setting a variable between steps."""
     return variable.variability == "tunable" or variable.causality == "input"
 
 
@@ -277,7 +279,7 @@ def _type_of(node: Node) -> str:
 
 
 def _in_a_system(type_name: str) -> str:
-    """Return the type of a signal between components: an Enumeration is exchanged as an Integer."""
+    """Return the type of a signal between components, where an Enumeration is exchanged as an Integer."""
     return "Integer" if type_name == "Enumeration" else type_name
 
 
@@ -290,5 +292,5 @@ def _start(variable: ScalarVariable, candidate: SlotCandidate) -> ParameterValue
 
 
 def _find_type(type_name: str, enumeration: EnumerationType | None) -> str:
-    """Return the type for modelDescription.xml; an Enumeration whose candidates differ becomes an Integer."""
+    """Return the type for modelDescription.xml; an Enumeration that differs between candidates becomes an Integer."""
     return "Enumeration" if enumeration is not None else _in_a_system(type_name)

@@ -14,7 +14,7 @@ from .variables import C_TYPES, PassedParameter, Variables
 
 
 def write_signals(model: SystemModel) -> str:
-    """Return the enum of signal numbers."""
+    """Return the C enum of the signals' indices."""
     lines = CodeLines()
     lines.comment(
         "Values on their way from component to component, by number: of outputs, connected inputs, connectors."
@@ -69,9 +69,9 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
 
 
 def write_parameters(model: SystemModel, variables: Variables) -> str:
-    """Return the function that sets component parameters from system parameters."""
+    """Return the C function that sets component parameters from system parameters."""
     lines = CodeLines()
-    lines.comment("Parameters of components that follow from those of systems.")
+    lines.comment("Sets component parameters from system parameters.")
     lines.open("static void pass_parameters(Block *self, Fault *fault)\n{")
     lines.add("(void)self, (void)fault;")
     for passed in variables.passed:
@@ -86,9 +86,9 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
 
 
 def write_use(model: SystemModel, variables: Variables) -> str:
-    """Return the function that tells whether a variable belongs to a chosen candidate."""
+    """Return the C function that is false for variables of candidates that are not selected."""
     lines = CodeLines()
-    lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
+    lines.comment("False if the variable at this offset belongs to a candidate that is not selected.")
     lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
     for candidate in model.candidates:
         slot = variables.slots.get(candidate.component)
@@ -107,7 +107,7 @@ def write_use(model: SystemModel, variables: Variables) -> str:
 
 
 def convert_along_chain(network: Network, chain: Sequence[str]) -> list[str]:
-    """Return the statements that convert ``value`` from the first connector of a chain to the last."""
+    """Return the C statements that convert ``value`` from the first connector of a chain to the last."""
     return [
         line
         for number, name in enumerate(chain[1:])
