@@ -73,7 +73,7 @@ def _of(component: str, wiring: Wiring, order: Iterable[str]) -> dict[str, Conne
 
 
 def _system_order(source: SystemSource, wiring: Wiring) -> list[str]:
-    """Return the system's connectors in the order of their declaration, with the elements of an array in index order."""
+    """Return the system's connectors in the order of their declaration, and elements of an array in index order."""
     names = [name for component, name in wiring.connectors if not component]
     position = {name: index for index, name in enumerate(source.connectors)}
     return sorted(names, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))

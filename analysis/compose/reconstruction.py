@@ -156,7 +156,7 @@ def _combine_arrays(points: list[Point], shapes: Mapping[Point, Shape]) -> list[
 
 
 def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[ListEntry]:
-    """Yield connections by source, in the order of the SSD; arrays connected element by element become a single entry."""
+    """Yield connections by source, in the order of the SSD; arrays connected element by element become one entry."""
     present = set(pairs)
     targets: dict[str, dict[str, None]] = {}
     for start, end in pairs:

@@ -218,7 +218,7 @@ class _Wirer:
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
     def keep_starts(self, entry: ListEntry) -> None:
-        """Record inputs that keep their start values: the named input, or all unconnected inputs for ``component.*``."""
+        """Record inputs that keep their start values: a named input, or all unconnected inputs for ``component.*``."""
         if entry.text.endswith(ALL):
             self.leave_all(entry.text.removesuffix(ALL), entry)
             return

@@ -124,6 +124,6 @@ def _experiment(prepared: PreparedSystem) -> bytes:
 
 
 def _is_exact(fmu: Fmu) -> bool:
-    """Return True if an FMU yields the same bits on every processor: an FMU of Perilune that uses no Python libraries."""
+    """Return True if an FMU has the same bits on every processor: it is Perilune's and uses no Python libraries."""
     block = catalogue().get(fmu.name)
     return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))

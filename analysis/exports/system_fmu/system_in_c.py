@@ -140,7 +140,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
 
 
 def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    """Return the statements that read the values set by the importer: system inputs, and parameters with fault inputs."""
+    """Return the statements that read values set by the importer: system inputs, and parameters with fault inputs."""
     paths = {each.name: each.path for each in variables.declared}
     sources = {model.signals[name]: paths[name] for name in model.inputs if name in model.signals}
     for tuned in variables.tuned:
@@ -162,8 +162,8 @@ def _renewal(statements: ChoiceStatements, phase: int) -> list[str]:
 
 
 def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
-    """Return the system parameters that are signals, each with its chain of connectors, starting from the connector
-    with the value.
+    """Return the system parameters that are signals, with their chains of connectors from the connector with the
+    value.
     """
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
