@@ -1,4 +1,4 @@
-"""Studies as evidence: campaigns with their verdicts, and stability studies with their margins, repeated and compared."""
+"""Studies as evidence: campaigns with their verdicts, stability studies with their margins, repeated and compared."""
 
 from __future__ import annotations
 

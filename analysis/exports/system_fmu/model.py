@@ -263,7 +263,7 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[SlotChoice], names: Sequence[str]) -> list[str]:
-    """Return the connectors and tunable parameters with fault inputs; every choice must have them. Raises InputError."""
+    """Return the connectors and tunable parameters with fault inputs, common to all choices. Raises InputError."""
     for name in names:
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)
