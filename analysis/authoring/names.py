@@ -56,6 +56,6 @@ def check_free(path: Path) -> None:
         raise InputError(
             "new",
             str(path),
-            "exists already and is not overwritten",
+            "already exists and is not overwritten",
             "choose another name, or move the existing one away",
         )

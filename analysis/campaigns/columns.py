@@ -23,13 +23,13 @@ FLIGHT = {
     "variant": Column(None, "FMUs in the compared slots"),
     "trial": Column("1", "number of the trial, which has the same samples in every variant"),
     "status": Column(None, "status of the simulation, and the worst status of its components"),
-    "message": Column(None, "why the simulation failed; empty if it did not"),
+    "message": Column(None, "reason for which the simulation failed, else empty"),
     "end_time": Column("s", "time of the last row"),
 }
 FAULT = {
     ".value": Column(None, "value in the trial; nan where the fault is absent"),
     ".start": Column("s", "start time; nan where the fault is absent"),
-    ".end": Column("s", "end time; inf without an end, nan where the fault is absent"),
+    ".end": Column("s", "end time; inf if the fault has no end, nan where the fault is absent"),
 }
 
 

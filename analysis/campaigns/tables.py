@@ -70,7 +70,7 @@ def verdict_text(result: RequirementVerdict) -> str:
     """Return a verdict as text: trials, failures and, if undecided, the further trials that would decide it."""
     if result.unevaluated:
         return f"{result.verdict}: {unevaluated_text(result)}"
-    text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"
+    text = f"{result.verdict}: {result.failures} of {result.flights} trials failed"
     if result.verdict is not AcceptanceVerdict.UNDECIDED:
         return text
     more = result.flights_to_decide

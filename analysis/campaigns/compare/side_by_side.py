@@ -20,7 +20,7 @@ DIFFERENCES = {
     "success": "define success differently",
     "seed": "have different seeds, so their components' random errors differ",
     "step": "have different steps",
-    "algorithm": "exchange values by different algorithms",
+    "algorithm": "use different co-simulation algorithms",
 }
 DEFINITION = ("expression", "reduction", "condition", "delay")  # definition of a metric
 
@@ -75,11 +75,11 @@ def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
         problem = f"{other_count} trials, {count} in {first.folder}"
     elif set(first.draws) != set(other.draws):
         name = min(set(first.draws) ^ set(other.draws))
-        problem = f"{name} is drawn in only one of this folder and {first.folder}"
+        problem = f"only one of this folder and {first.folder} draws {name}"
     else:
         for name, values in first.draws.items():
             if not np.array_equal(values, other.draws[name]):
-                problem = f"{name} is not drawn as in {first.folder}"
+                problem = f"the samples of {name} differ from those in {first.folder}"
                 break
     if problem:
         raise InputError(
@@ -91,7 +91,7 @@ def _check_units(first: StoredBatch, other: StoredBatch) -> None:
     units = {metric.name: metric.unit for metric in first.metrics}
     for metric in other.metrics:
         if units.get(metric.name, metric.unit) != metric.unit:
-            problem = f"in {metric.unit}, {units[metric.name]} in {first.folder}"
+            problem = f"its unit is {metric.unit}, but {units[metric.name]} in {first.folder}"
             raise InputError(other.folder, f"metric {metric.name}", problem, "compare metrics in the same unit")
 
 
@@ -112,7 +112,7 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
             if any(getattr(known, key) != getattr(metric, key) for key in DEFINITION):
                 yield f"{pair} define the metric {metric.name} differently"
         if other.foreign_traces:
-            yield f"{other_name} holds {other.foreign_traces} traces of another batch, which are omitted"
+            yield f"{other_name} contains {other.foreign_traces} traces of another batch, which are omitted"
 
 
 def _distinct_names(paths: Sequence[Path]) -> list[str]:

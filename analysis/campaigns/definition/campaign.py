@@ -178,8 +178,8 @@ class Campaign:
         }
         for element, formula in asking.items():
             for name in sorted(formula.names & dropped):
-                problem = f"{name} needs a lookup, which has values for the campaign's own trials only"
-                raise InputError(self.file, element, problem, "use a campaign without lookups for other trials")
+                problem = f"{name} comes from a lookup table, which covers only the campaign's own trials"
+                raise InputError(self.file, element, problem, "use a campaign without [lookup] for other trials")
         return replace(
             self,
             lookups=(),
@@ -239,7 +239,7 @@ def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Trial
     for values in parts:
         distinct = np.union1d(distinct, values)
         if distinct.size > MAXIMUM_GROUPS:
-            problem = f"at least {distinct.size} different values, one group each"
+            problem = f"has at least {distinct.size} different values, and each would form a group"
             raise InputError(*where, problem, f"group by a quantity with at most {MAXIMUM_GROUPS} values")
     plain = [float(value) + 0.0 for value in distinct]  # no -0
     labels = [f"{value:.10g}" for value in plain]

@@ -104,7 +104,7 @@ def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
     for name in plan.supplied.streams:
         if name != ALL and name not in known:
             where = (plan.supplied.file or plan.campaign.file, stream_column(name))
-            remedy = suggestion(name, known) if known else "leave the column out"
+            remedy = suggestion(name, known) if known else "remove the column"
             raise InputError(*where, "no component that draws random numbers has this name", remedy)
 
 

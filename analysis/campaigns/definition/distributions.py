@@ -123,7 +123,9 @@ def read_ends(table: TomlTable) -> tuple[float, float]:
     """Return the ends of an interval. Raises InputError."""
     low, high = table.get("low", number), table.get("high", number)
     if not math.isfinite(high - low):
-        raise table.error("high", f"{high!r} is too far from low = {low!r} for doubles", "give a smaller interval")
+        raise table.error(
+            "high", f"{high!r} minus low = {low!r} exceeds the range of doubles", "give a smaller interval"
+        )
     if not low < high:
         raise table.error("high", f"{high!r} is not above low = {low!r}", "give low < high, or fix the value in [set]")
     return low, high
@@ -150,9 +152,13 @@ class Choice(Discrete, Independent):
         values = table.get("values", numbers)
         weights = table.get("weights", numbers, (1.0,) * len(values))
         if len(weights) != len(values):
-            raise table.error("weights", f"{len(weights)} weight(s) for {len(values)} value(s)", "give one per value")
+            raise table.error(
+                "weights", f"{len(weights)} weight(s) for {len(values)} value(s)", "give one weight per value"
+            )
         if min(weights) < 0.0 or not sum(weights) > 0.0:
-            raise table.error("weights", "negative, or all zero", "give weights >= 0 with a positive sum")
+            raise table.error(
+                "weights", "a weight is negative, or all weights are zero", "give weights >= 0 with a positive sum"
+            )
         return cls(values, weights)
 
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
@@ -181,7 +187,9 @@ class Grid(Discrete, Design):
             return cls(table.get("values", numbers))
         count = table.get("count", integer)
         if count < 2:
-            raise table.error("count", f"{count} point(s)", "give 2 or more, both ends included")
+            raise table.error(
+                "count", f"{count} point(s)", "give at least 2 points; low and high are the first and the last"
+            )
         GRID_POINTS.check(count, *table.where("count"))
         return cls(tuple(np.linspace(*read_ends(table), count).tolist()))
 

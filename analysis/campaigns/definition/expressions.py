@@ -165,7 +165,7 @@ class _Translator:
             self.refuse(f"{ast.unparse(node.func)!r} is not a function", suggestion(str(name), FUNCTIONS))
         function, fewest, maximum = FUNCTIONS[name]
         if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
-            self.refuse(f"{ast.unparse(node)!r} has arguments that are not positional", f"write {name}(a, ...)")
+            self.refuse(f"{ast.unparse(node)!r} has a keyword or starred argument", f"write {name}(a, ...)")
         if len(node.args) < fewest or (maximum is not None and len(node.args) > maximum):
             permitted = f"{fewest}" if maximum == fewest else f"{fewest} or more"
             self.refuse(f"{name} is given {len(node.args)} argument(s)", f"give it {permitted} instead")
@@ -223,9 +223,9 @@ class Expression:
         EXPRESSION_CHARACTERS.check(len(self.text), *where)
         translator = _Translator(self.text, where)
         if "#" in self.text:
-            translator.refuse("a comment", "drop it, or put it outside the text")
+            translator.refuse("contains a comment", "remove it, or put it outside the text")
         if "\0" in self.text:  # Python's versions report it differently
-            translator.refuse("a null character", "write plain characters")
+            translator.refuse("contains a null character", "write plain characters")
         try:
             body = translator.translate(_parse(self.text))
             arguments = [ast.arg(slot) for slot in translator.slots.values()]

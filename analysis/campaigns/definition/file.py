@@ -74,7 +74,9 @@ def _lookup(name: str, table: TomlTable, others: Iterable[str]) -> Lookup:
     inputs = table.table("inputs")
     formulas = {key: sequence(_formula)(inputs, key, _as_list(entry)) for key, entry in inputs.content.items()}
     if not formulas:
-        raise table.error("inputs", "no input", "name the inputs of its values: name = expression, or a list")
+        raise table.error(
+            "inputs", "no input", "name the quantities that its values depend on: name = expression, or a list"
+        )
     return Lookup(name, table.get("column", text), formulas, origin, file, label, content)
 
 
@@ -120,7 +122,7 @@ def _metric(name: str, table: TomlTable) -> Metric:
 def _seconds_later(table: TomlTable, key: str, value: object) -> float:
     seconds = number(table, key, value)
     if seconds < 0.0:
-        raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
+        raise table.error(key, f"{value!r} is negative", "give a delay in seconds, 0 or more")
     return seconds
 
 
@@ -136,7 +138,7 @@ def _record(table: TomlTable) -> TrialRecord:
     table.only(["final", "every", "signals", "trials", "traces"])
     every = table.get("every", integer, None)
     if every is not None and every < 1:
-        raise table.error("every", f"{every} row(s)", "give 1 or more: every n-th row is kept")
+        raise table.error("every", f"{every} row(s)", "give n >= 1 to record every n-th row")
     nothing: tuple[str, ...] = ()
     signals = table.get("signals", names, nothing)
     if (every is None) != (not signals):
@@ -144,10 +146,10 @@ def _record(table: TomlTable) -> TrialRecord:
         raise table.error(missing, "missing", "give every = n together with signals = [...], or neither")
     trials = table.get("trials", integer, None)
     if trials is not None and trials < 1:
-        raise table.error("trials", f"{trials} trial(s)", "give 1 or more: the first n trials are sampled")
+        raise table.error("trials", f"{trials} trial(s)", "give n >= 1 to record the first n trials")
     if trials is not None and every is None:
         raise table.error(
-            "trials", "nothing is sampled", "give every = n and signals = [...] as well, or remove trials"
+            "trials", "no signal is recorded over time", "give every = n and signals = [...] as well, or remove trials"
         )
     traces = table.get("traces", choice_of(*TRACES), "none")
     return TrialRecord(table.get("final", names, nothing), every, signals, traces, trials)
@@ -197,7 +199,7 @@ def parse_campaign(table: TomlTable) -> Campaign:
     """Return the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then simulate the law in a campaign without this table"
-        raise table.error(SYNTHESIS, "declares a search, which a batch cannot run", remedy)
+        raise table.error(SYNTHESIS, "declares a search, which perilune batch cannot run", remedy)
     table.only(TABLE)
     draws = _draws(table.table("draw"))
     derived = _read_derived(table.table("derive"), draws)
@@ -251,7 +253,7 @@ def read_settings(table: TomlTable, dispersed: Sequence[str]) -> dict[str, Setti
         if "." not in name:
             raise table.error(name, "names no component", "write component.variable = value")
         if name in dispersed:
-            raise table.error(name, "also dispersed or derived", "keep one of the two")
+            raise table.error(name, "is also drawn or derived", "keep one of the two")
     return settings
 
 
@@ -259,8 +261,8 @@ def read_configurations(campaign: TomlTable, dispersed: Sequence[str]) -> tuple[
     """Return the configurations of a campaign, in the order of its file. Raises InputError."""
     declared = campaign.table("configuration")
     if declared.content and campaign.table("compare").content:
-        remedy = "write the compared FMUs as configurations, or leave the configurations out"
-        raise declared.error("", "given together with [compare]", remedy)
+        remedy = "write the compared FMUs as configurations, or remove the configurations"
+        raise declared.error("", "cannot be combined with [compare]", remedy)
     for name in declared.content:
         if not name.replace("-", "_").isidentifier():
             raise declared.error(name, f"{name!r} is not a plain name", "use letters, digits, - and _")

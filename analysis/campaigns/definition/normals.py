@@ -100,14 +100,14 @@ class CorrelatedNormal(_Jointly):
         if len(mean) != size:
             raise table.error("mean", f"{len(mean)} value(s) for {size} name(s)", "give one mean per name")
         if len(covariance) != size or any(len(row) != size for row in covariance):
-            raise table.error("covariance", f"not {size} by {size}", "give one row and one column per name")
+            raise table.error("covariance", f"not a {size} by {size} matrix", "give one row and one column per name")
         matrix = np.array(covariance)
         if not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0.0):
             raise table.error("covariance", "not symmetric", "give the same value at [i][j] and [j][i]")
         values, _ = principal_axes(covariance)
         if values[0] < -1e-12 * abs(values[-1]) or not values[-1] > 0.0:
-            problem = f"not a covariance: its eigenvalues go from {values[0]:.3g} to {values[-1]:.3g}"
-            raise table.error("covariance", problem, "give a matrix without negative eigenvalues that is not zero")
+            problem = f"not a covariance: its eigenvalues range from {values[0]:.3g} to {values[-1]:.3g}"
+            raise table.error("covariance", problem, "give a nonzero matrix without negative eigenvalues")
         return cls(mean, covariance)
 
     @property

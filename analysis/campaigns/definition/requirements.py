@@ -44,8 +44,10 @@ def read_requirements(table: TomlTable, metrics: Collection[str], draws: Iterabl
     """
     for draw in draws:
         if table.content and isinstance(draw.distribution, Design):
-            problem = f"{draw.name} is drawn by {draw.distribution.keyword}, and verdicts need independent trials"
-            remedy = f"draw it by {draw.distribution.alternative}, or remove the requirements"
+            problem = (
+                f"{draw.name} has the distribution {draw.distribution.keyword}, but verdicts need independent trials"
+            )
+            remedy = f"use {draw.distribution.alternative}, or remove the requirements"
             raise table.error("", problem, remedy)
     return tuple(_requirement(name, each, metrics) for name, each in table.subtables())
 
@@ -79,7 +81,7 @@ def _share(table: TomlTable, key: str, value: object) -> float:
     fraction = number(table, key, written[:-1] if percent else value) / (100.0 if percent else 1.0)
     if not 0.0 < fraction < 1.0:
         problem = f"{value!r} is not between 0 and 1"
-        raise table.error(key, problem, 'write a share of 1, or per cent in quotes: 0.9987 or "99.87 %"')
+        raise table.error(key, problem, 'write a fraction, or a percentage in quotes: 0.9987 or "99.87 %"')
     return fraction
 
 

@@ -103,7 +103,7 @@ def _read_source(
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
         raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
     if names.count(HERE) > 1:
-        raise InputError(label, EXTENDS, f"{HERE!r} is there twice", "give this file's own position once")
+        raise InputError(label, EXTENDS, f"{HERE!r} occurs twice", "list this file's own position once")
     extended = []
     for name in names:
         if name == HERE:
@@ -111,7 +111,9 @@ def _read_source(
         inherited, other = _find(name, label, archive)
         if other in (*chain, label):
             path = " -> ".join([*chain, label, other])
-            raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these references")
+            raise InputError(
+                label, EXTENDS, f"files extend each other in a cycle: {path}", "remove one of these references"
+            )
         CAMPAIGN_FILES.check(len(files), label, EXTENDS)
         files.append(other)
         extended.append(_read_source(inherited, other, archive, (*chain, label), files))
@@ -168,7 +170,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
     except UnicodeDecodeError as error:
         raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
     if LONG_NAME.search(text):
-        raise InputError(label, "", f"a name of more than {MOST_SEGMENTS} parts", "correct the file")
+        raise InputError(label, "", f"a key has more than {MOST_SEGMENTS} dotted parts", "correct the file")
     try:
         content = tomllib.loads(text)
         _check_integers(content, "", label)

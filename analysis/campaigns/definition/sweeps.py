@@ -50,11 +50,9 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
             )
         if name in sampled:
             problem = "the campaign draws it in every trial"
-            raise InputError(
-                SINGLE, f"{name}={text}", problem, "leave out this sweep, or remove the draw from the campaign"
-            )
+            raise InputError(SINGLE, f"{name}={text}", problem, "omit this sweep, or remove the draw from the campaign")
         if campaign.requirements:
-            problem = "the campaign has requirements, whose verdicts need independent trials"
+            problem = "the campaign has requirements, and their verdicts need independent trials"
             raise InputError(SINGLE, f"{name}={text}", problem, "sweep a campaign without requirements")
     swept = replace(
         campaign,

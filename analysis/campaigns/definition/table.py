@@ -97,7 +97,7 @@ class TomlTable:
         known: set[str] = set()
         for name, value in walk("", self.content):
             if name in known:
-                raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
+                raise self.error(name, "occurs twice, with and without quotes", "keep one of the two")
             known.add(name)
             yield name, value
 

@@ -67,6 +67,6 @@ def stream_numbers(
     names = sorted(set(component_names))
     last = int(trials.max(initial=0))
     if (last + 1) * len(names) > INTEGER_RANGE:
-        problem = f"trial {last} with {len(names)} components needs a stream number above 2^31 - 1"
+        problem = f"trial {last} with {len(names)} random components needs a stream number above 2^31 - 1"
         raise InputError(where, "trials", problem, f"use at most {INTEGER_RANGE // len(names)} trials")
     return seed % INTEGER_RANGE, trials * len(names) + names.index(component)

@@ -23,7 +23,7 @@ from .declared import Formula
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # hexadecimal digits of SHA-256
 COMMAND, INPUT = "# made by: ", "# input: "
-WRITE = "write the table again; perilune design bounds writes that of [lookup.bound]"
+WRITE = "compute the table again; perilune design bounds computes the table of [lookup.bound]"
 
 InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
 
@@ -80,11 +80,13 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
     rows = [line.split(",") for line in lines if line.strip() and not line.startswith("#")]
     head = rows.pop(0) if rows else []
     if head[:2] != [TRIAL, INPUTS] or len(set(head)) < len(head) or len(head) < 3:
-        raise InputError(file, "", f"its columns do not begin with {TRIAL},{INPUTS} and different names", WRITE)
+        raise InputError(file, "", f"the header is not {TRIAL},{INPUTS} followed by distinct names", WRITE)
     numbers = np.empty((len(rows), len(head) - 2))
     for trial, row in enumerate(rows):
         if len(row) != len(head) or row[0] != str(trial):
-            raise InputError(file, f"row {trial}", f"not trial {trial} with {len(head)} columns", WRITE)
+            raise InputError(
+                file, f"row {trial}", f"the row does not contain trial {trial} and {len(head)} columns", WRITE
+            )
         try:
             numbers[trial] = [float(text) for text in row[2:]]
         except ValueError as error:
@@ -140,7 +142,7 @@ class Lookup:
         rows = len(self.table.hashes)
         if trials.stop > rows:
             problem = f"has {rows} trials, but the campaign has {trials.stop} or more"
-            raise InputError(self.label, "", problem, f"give `trials` {rows} at most, or {self.table.remedy}")
+            raise InputError(self.label, "", problem, f"give `trials` at most {rows}, or {self.table.remedy}")
         return self.table.columns[self.column][trials.start : trials.stop]
 
     def input_columns(self, known: Mapping[str, np.ndarray | float], trials: int) -> InputColumns:
@@ -154,10 +156,10 @@ class Lookup:
         """Reject a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
         different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
         if different:
-            problem = f"{', '.join(different)}: in only one of the table and [{self.element}.inputs]"
+            problem = f"{', '.join(different)}: occurs in only one of the table and [{self.element}.inputs]"
             raise InputError(self.label, "input", problem, self.table.remedy)
         hashes = self.table.hashes[trials.start : trials.stop]
         for trial, stored, actual in zip(trials, hashes, input_hashes(columns), strict=True):
             if stored != actual:
-                problem = f"computed for other inputs ({', '.join(self.inputs)}) than those of {variant}"
+                problem = f"computed for inputs ({', '.join(self.inputs)}) that differ from the inputs of {variant}"
                 raise InputError(self.label, f"trial {trial}", problem, self.table.remedy)

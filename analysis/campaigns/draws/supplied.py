@@ -110,13 +110,13 @@ def read_supplied(path: Path, campaign: CampaignDraws) -> SuppliedDraws:
         raise InputError(path, "", f"not Parquet: {error}", REMEDY) from error
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
     if not table.num_rows:
-        raise InputError(path, "", "no row", "give one row or more")
+        raise InputError(path, "", "the table is empty", "give one row or more")
     if not sampled and not stream_columns:
         raise InputError(path, "", f"{campaign.file} draws nothing", "leave out `draws`")
     columns = {name: _numbers(path, table, name) for name in (*sampled, *stream_columns)}
     for name in stream_columns:
         if np.any((columns[name] < 0.0) | (columns[name] > TRIALS.limit) | (columns[name] != np.round(columns[name]))):
-            raise InputError(path, name, "not all values are trial numbers", "give whole numbers, 0 or more")
+            raise InputError(path, name, "a value is not a trial number", "give whole numbers, 0 or more")
     return SuppliedDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
 
 
@@ -128,14 +128,16 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) 
     numbers = (pyarrow.types.is_integer, pyarrow.types.is_floating, pyarrow.types.is_boolean)
     for name in sampled:
         if name not in schema.names:
-            raise InputError(path, name, "is drawn, but the file has no such column", "add the column")
+            raise InputError(
+                path, name, "the campaign draws this value, but the file has no such column", "add the column"
+            )
     for name, count in Counter(schema.names).items():
         known = [*sampled, *campaign.derived, *(lookup.name for lookup in campaign.lookups)]
         if stream_component(name) is None and name not in (TRIAL, *known):
             remedy = suggestion(name, [*known, STREAMS])
             raise InputError(path, name, f"{campaign.file} neither draws nor derives this value", remedy)
         if count > 1:
-            raise InputError(path, name, "two columns of this name", "remove one of the two")
+            raise InputError(path, name, "two columns have this name", "remove one of the two")
         if not any(is_of(schema.field(name).type) for is_of in numbers):
             raise InputError(path, name, "not a column of numbers", "give a number in every row")
 

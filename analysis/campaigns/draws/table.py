@@ -76,9 +76,12 @@ def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
     """
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
     if trials > TABLE_TRIALS.limit:
-        problem = f"{trials} trials, but at most {TABLE_TRIALS.limit:.0f} can be drawn as one table"
+        problem = f"{trials} trials are requested, but one table of draws has at most {TABLE_TRIALS.limit:.0f}"
         raise InputError(
-            file, "trials", problem, 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
+            file,
+            "trials",
+            problem,
+            'give fewer trials, or write draw_scheme = "counter", which yields different samples',
         )
     ordered = sorted(campaign.draws, key=lambda draw: draw.names)
     designs = [kind.design(draws, trials, seed, file) for kind, draws in designs_of(ordered).items()]

@@ -80,7 +80,7 @@ class LoadedCampaign:
     def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
         """Return the trials of a stored shard by variant."""
         if self.folder is None:
-            raise ValueError("a campaign without a folder holds no shards")
+            raise ValueError("a campaign without a folder stores no shards")
         return self.store().rows(self.numbering, range(shard, shard + 1))
 
     def has(self, shard: int) -> bool:
@@ -115,7 +115,10 @@ class LoadedCampaign:
         functions.
         """
         if self.manifest.elementary_functions != VERSION:
-            problem = f"{self.manifest.elementary_functions}, this perilune has {VERSION}: the last bits would differ"
+            problem = (
+                f"prepared with elementary functions {self.manifest.elementary_functions}, but this perilune has "
+                f"{VERSION}: results would differ in their last bits"
+            )
             remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
             raise InputError(self.user_folder or FILE, "elementary_functions", problem, remedy)
         requested = set(shards)
@@ -141,8 +144,8 @@ def open_campaign(
     not this process.
     """
     if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
-        problem = f"{elsewhere} decide for themselves whether to compile steps"
-        raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
+        problem = f"{elsewhere} choose for themselves whether to compile steps"
+        raise InputError("`flavour`", FUSED, problem, "omit `flavour`")
     count = worker_count(workers)
     systems = check_plan(plan)
     in_child = needs_children(count, in_threads(systems.values(), engine), engine)

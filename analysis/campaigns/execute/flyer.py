@@ -164,7 +164,8 @@ class Flyer:
             read = self._fly_recorded(variant, prepared, trial, names, {*names.signals, *names.statuses})
             if read.status != NONFINITE:
                 self._warn_once(
-                    variant, f"trial {trial}: {result.message}; omitted, since the campaign does not use it"
+                    variant,
+                    f"trial {trial}: {result.message}; this signal is not recorded, since the campaign does not use it",
                 )
                 result = read
         return result, self._look_at(result, trial, names)
@@ -205,7 +206,8 @@ class Flyer:
                 first, flight = flight.message, run(simulation, parameters, self.plan.watch.timeout)
                 if flight.status not in LOST:
                     self._warn_once(
-                        variant, f"trial {trial}: {first}; not repeated in a new process, whose result is used"
+                        variant,
+                        f"trial {trial}: {first}; the failure did not recur in a new process, and its result is used",
                     )
             return flight
         except StuckError as error:  # its instances are lost: the next trial has new ones

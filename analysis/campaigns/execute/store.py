@@ -40,7 +40,7 @@ class ShardTable(TrialTable):
             for name in sorted(expected - set(table.column_names)):
                 raise InputError(shard.path, name, "no such column", NEW_FOLDER)
             for name in sorted(set(table.column_names) - expected):
-                raise InputError(shard.path, name, "not a column of every shard", NEW_FOLDER)
+                raise InputError(shard.path, name, "other shards do not have this column", NEW_FOLDER)
             tables.append(table)
         return pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks()
 

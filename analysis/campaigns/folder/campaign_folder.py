@@ -110,7 +110,7 @@ class CampaignFolder:
                 break
             path = shard_path(self.folder, number)
             if not os.path.lexists(path):
-                raise InputError(path, "", f"not found: trials from {end} on are missing", NEW_FOLDER)
+                raise InputError(path, "", f"not found; the trials from {end} on are missing", NEW_FOLDER)
             shard = self._find(path)
             if shard.trials.start != end:
                 raise InputError(path, "", f"begins with trial {shard.trials.start}, not {end}", NEW_FOLDER)
@@ -129,11 +129,11 @@ class CampaignFolder:
         if not isinstance(about, dict) or about.get("batch") != self.batch:
             raise InputError(path, "", f"belongs to another batch than {whose}", NEW_FOLDER)
         if about.get("shard") != int(path.stem):
-            raise InputError(path, "", "its contents are not those of the shard in its name", NEW_FOLDER)
+            raise InputError(path, "", "its metadata states another shard than its name", NEW_FOLDER)
         match about.get("trials"):
             case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
                 return range(first, stop)
-        raise InputError(path, "trials", "its trials are not those of one shard", NEW_FOLDER)
+        raise InputError(path, "trials", "does not state a valid range of trials", NEW_FOLDER)
 
     def _about(self, number: int, trials: range) -> dict[str, object]:
         return {"batch": self.batch, "shard": number, "trials": [trials.start, trials.stop]}
@@ -171,7 +171,7 @@ class CampaignFolder:
         check_columns(table, whole if names is None else names, path)
         variants = self.variants if variant is None else [variant]
         if table.num_rows != size * len(variants) and variant is None:
-            problem = f"{table.num_rows} rows, not {size} of each of {len(variants)} variants"
+            problem = f"{table.num_rows} rows, not {size} for each of {len(variants)} variants"
             raise InputError(path, "", problem, NEW_FOLDER)
         for number, name in enumerate(variants):
             _check_rows(table.slice(number * size, size), name, shard.trials, path)
@@ -212,7 +212,9 @@ class CampaignFolder:
 def _check_rows(table: pyarrow.Table, variant: str, trials: range, path: Path) -> None:
     """Reject rows that are not the trials of a variant in order. Raises InputError."""
     if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
-        problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
+        problem = (
+            f"the rows do not contain each of the trials {trials.start} to {trials.stop - 1} of {variant} exactly once"
+        )
         raise InputError(path, "trial", problem, NEW_FOLDER)
     if set(table["variant"].unique().to_pylist()) != {variant}:
-        raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)
+        raise InputError(path, "variant", f"contains rows of a variant other than {variant}", NEW_FOLDER)

@@ -166,7 +166,7 @@ def _check_manifest(manifest: CampaignManifest, path: Path) -> None:
             raise InputError(path, name, "not a SHA-256 hash", SAME_VERSION)
     fmu = manifest.system["fmu"]
     if fmu is not None and fmu not in manifest.system["files"]:
-        raise InputError(path, "system.fmu", f"no file {fmu} of the system", SAME_VERSION)
+        raise InputError(path, "system.fmu", f"the system has no file {fmu}", SAME_VERSION)
 
 
 NAMED = re.compile(r"[0-9a-f]{64}(\..*)?")

@@ -136,7 +136,7 @@ class OpenedResults:
 
     def _variant(self, variant: str | None) -> str:
         if variant is None and len(self.variants) > 1:
-            raise KeyError(f"several variants; name one of {', '.join(self.variants)}")
+            raise KeyError(f"the campaign has several variants; name one of {', '.join(self.variants)}")
         if variant is not None and variant not in self.variants:
             raise KeyError(f"no variant {variant}; {suggestion(variant, self.variants)}")
         return variant or self.variants[0]

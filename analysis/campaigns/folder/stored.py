@@ -164,7 +164,7 @@ def _variants(
             rows = TrialTable(trials.slice(number * size, size).combine_chunks())
             is_same = is_sampled and all(np.array_equal(rows.column(name), column) for name, column in expected.items())
             if not is_same:
-                raise InputError(shard.path, variant, "its samples differ from those in draws.parquet", NEW_FOLDER)
+                raise InputError(shard.path, variant, "its samples differ from draws.parquet", NEW_FOLDER)
             joined.append(rows)
     return {variant: join_trials(joined) for variant, joined in by_variant.items()}
 
@@ -177,9 +177,11 @@ def _column(draw: str) -> str:
 def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable], path: Path) -> None:
     """Reject a summary whose variants or success rates differ from those of the table."""
     if list(document["variants"]) != list(variants):
-        raise InputError(path, "variants", "differ from those in trials/", NEW_FOLDER)
+        raise InputError(path, "variants", "differ from the variants in trials/", NEW_FOLDER)
     for name, trials in variants.items():
         stated = document["variants"][name]
         rate = stated.get("success_rate") if isinstance(stated, dict) else None
         if rate != int(trials.success.sum()) / len(trials.success):
-            raise InputError(path, f"variants.{name}", "its success rate differs from that in trials/", NEW_FOLDER)
+            raise InputError(
+                path, f"variants.{name}", "its success rate differs from the trials in trials/", NEW_FOLDER
+            )

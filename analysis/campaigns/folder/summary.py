@@ -48,7 +48,7 @@ def read_summary(path: Path) -> SummaryDocument:
         raise InputError(path, "variants", "missing", WRITE)
     for key in FACTS:
         if key not in document:
-            raise InputError(path, key, "missing; perhaps written by an older version", "run the batch again")
+            raise InputError(path, key, "missing; an older version may have written this file", "run the batch again")
     return document
 
 

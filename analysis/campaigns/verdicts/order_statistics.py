@@ -57,7 +57,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
         for index, start in enumerate(below):
             reached = np.cumsum(counts[start])
             if left[index] >= reached[-1]:
-                raise IndexError(f"no value of rank {ranks[index]}")
+                raise IndexError(f"no value has rank {ranks[index]}")
             digit = int(np.searchsorted(reached, left[index], side="right"))
             left[index] -= int(reached[digit] - counts[start][digit])
             below[index] = start << DIGIT | digit

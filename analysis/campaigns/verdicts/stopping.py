@@ -106,7 +106,7 @@ class StoppingRule:
     def _look(self, boundary: Boundary, flights: int) -> InterimLook:
         self._extend(flights)
         if flights not in self._places:
-            raise ValueError(f"no look after {flights} flights")
+            raise ValueError(f"no interim analysis is planned after {flights} trials")
         return boundary.looks[self._places[flights]]
 
     def _all_looks(self) -> Iterator[int]:

@@ -33,7 +33,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
     for option, value in (("`workers`", workers), ("`engine`", engine)):
         if value is not None:
             problem = "the cluster's workers simulate, each with its own number of threads"
-            raise InputError(option, str(value), problem, f"leave out {option} or {OPTION}")
+            raise InputError(option, str(value), problem, f"omit {option} or {OPTION}")
     distributed = _import_distributed()
     with _quiet(), _client(distributed, address) as client:
         _look_at_workers(client, address)

@@ -39,9 +39,9 @@ def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str)
     if isinstance(theirs, BaseException):
         problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
     elif theirs[0] != ours[0]:
-        problem = f"worker {worker} has perilune {theirs[0]}, this process has {ours[0]}"
+        problem = f"worker {worker} has perilune {theirs[0]}, but this process has {ours[0]}"
     elif theirs != ours:
-        problem = f"worker {worker} has other sources of perilune {ours[0]}"
+        problem = f"worker {worker} has perilune {ours[0]} with different source files"
     else:
         return
     raise InputError(
