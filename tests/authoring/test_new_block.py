@@ -131,8 +131,8 @@ def test_python_is_as_ruff_writes_it(tmp_path, monkeypatch):
         (["system", "lunar_landing"], ["is a system of this repository"]),
         (["block", "mine", "--slot", "terminal_guidence"], ["--slot", "no such slot", "terminal_guidance"]),
         (["block", "mine", "--slot", "gyro_steering"], ["--slot", "no block template", "use one of allocation"]),
-        (["block", "taken"], ["taken.py", "exists already and is not overwritten"]),
-        (["system", "there"], ["there", "exists already and is not overwritten"]),
+        (["block", "taken"], ["taken.py", "already exists and is not overwritten"]),
+        (["system", "there"], ["there", "already exists and is not overwritten"]),
         (["block", "built"], ["build/fmus/native/built.fmu already", "remove this file"]),
     ],
 )

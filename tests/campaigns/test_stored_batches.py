@@ -108,7 +108,7 @@ DAMAGES = {
     "no JSON": (lambda f: (f / "summary.json").write_text("{"), "summary.json: not JSON"),
     "not UTF-8": (lambda f: (f / "summary.json").write_bytes(b"\xff"), "summary.json: not JSON"),
     "a list": (lambda f: (f / "summary.json").write_text("[]"), "summary.json: variants: missing"),
-    "old": (lambda f: edit(f / "summary.json", lambda d: d.pop("signals")), "signals: missing; perhaps written by"),
+    "old": (lambda f: edit(f / "summary.json", lambda d: d.pop("signals")), "signals: missing; an older version"),
     "other seed": (lambda f: edit(f / "summary.json", lambda d: d.update(seed=8)), "belongs to another batch than"),
     "metadata": (
         lambda f: rewrite(f / LAST, lambda t: t.replace_schema_metadata({})),
@@ -116,19 +116,19 @@ DAMAGES = {
     ),
     "rate": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"]["beta"].update(success_rate=0.5)),
-        "variants.beta: its success rate differs from that in trials/",
+        "variants.beta: its success rate differs from the trials in trials/",
     ),
     "variants": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"].pop("beta")),
-        "summary.json: variants: differ from those in trials/",
+        "summary.json: variants: differ from the variants in trials/",
     ),
     "column": (lambda f: rewrite(f / LAST, without("metric.miss")), "metric.miss: no such column"),
     "status": (lambda f: rewrite(f / LAST, without("status")), "status: no such column"),
     "texts": (lambda f: rewrite(f / LAST, texts("metric.miss")), "metric.miss: not a column of numbers"),
-    "draws": (lambda f: rewrite(f / "draws.parquet", other_numbers("offset")), "its samples differ from those"),
+    "draws": (lambda f: rewrite(f / "draws.parquet", other_numbers("offset")), "its samples differ from draws"),
     "draw": (lambda f: rewrite(f / "draws.parquet", lambda t: t.append_column("x", t["offset"])), "draw.x: no such"),
-    "rows": (lambda f: rewrite(f / "draws.parquet", lambda t: t.slice(1)), "its samples differ from those in"),
-    "trial": (lambda f: rewrite(f / "draws.parquet", without("trial")), "its samples differ from those in"),
+    "rows": (lambda f: rewrite(f / "draws.parquet", lambda t: t.slice(1)), "its samples differ from draws"),
+    "trial": (lambda f: rewrite(f / "draws.parquet", without("trial")), "its samples differ from draws"),
     "trace": (lambda f: truncated(f / "traces" / "beta" / "000002.parquet"), "000002.parquet: cannot be read"),
 }  # fmt: skip
 
@@ -156,7 +156,7 @@ def test_traces_of_an_earlier_batch_are_left_out_and_told(folder):
     read = read_batch(folder)
     assert read.traced == {variant: [0, 1, 2, 3, 4] for variant in ("alpha", "beta", "gamma")}
     assert read.foreign_traces == 3 * 7
-    assert compare([folder]).notes == ("batch holds 21 traces of another batch, which are omitted",)
+    assert compare([folder]).notes == ("batch contains 21 traces of another batch, which are omitted",)
     shutil.copy(folder / "traces/alpha/000001.parquet", folder / "traces/alpha/000030.parquet")
     assert 30 not in read_batch(folder).traced["alpha"]
 
@@ -199,13 +199,13 @@ def test_the_reference_is_b(original):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ({"seed": 8}, "draws: offset is not drawn as in"),
+        ({"seed": 8}, "draws: the samples of offset differ from those in"),
         ({"trials": 39}, "draws: 39 trials, 40 in"),
         (
             {"text": CAMPAIGN.replace("[draw.offset]", "[draw.shift]")},
-            "draws: offset is drawn in only one of this folder and",
+            "draws: only one of this folder and",
         ),
-        ({"text": CAMPAIGN.replace('unit = "kg"', 'unit = "t"')}, "metric propellant: in t, kg in"),
+        ({"text": CAMPAIGN.replace('unit = "kg"', 'unit = "t"')}, "metric propellant: its unit is t, but kg in"),
     ],
 )
 def test_what_cannot_be_compared_is_refused_in_one_line(original, tmp_path, options, says):

@@ -79,7 +79,7 @@ def test_so_does_one_that_is_given(tiny_folder, tmp_path, capsys):
 
 
 def test_nine_samples_verify_nothing(tiny_folder, tmp_path, capsys):
-    """A sample that is there twice is one."""
+    """A sample that occurs twice is one."""
     rows = STILL.splitlines(keepends=True)
     for table, status in (("".join(rows[:10] + rows[9:10]), 1), ("".join(rows[:11]), 0)):
         fmu(experiment("") | {OUT: table})(tmp_path, tiny_folder / "native")

@@ -26,7 +26,7 @@ EXPRESSIONS: dict[str, tuple[str, tuple[str, ...]]] = {
     "an assignment": ("(x := 1)", ("not allowed",)),
     "a string": ("'a' * 999999999", ("not allowed",)),
     "a complex number": ("1j", ("not allowed",)),
-    "a star": ("max(*ramp.y)", ("not positional",)),
+    "a star": ("max(*ramp.y)", ("has a keyword or starred argument",)),
     "await": ("await ramp.y", ("not allowed",)),
     "a NUL": (r"\u0000", ("null character",)),
     "an escape": (r"\u001b[2J", (r"\x1b[2J",)),

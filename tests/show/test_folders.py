@@ -80,10 +80,13 @@ def change(path, changed):
 @pytest.mark.parametrize(
     ("changed", "problem"),
     [
-        (lambda table: table.slice(0, 5), "5 rows, not 500 of each of 3 variants"),
-        (lambda table: table.take(list(range(table.num_rows - 1, -1, -1))), "its rows are not trials 500 to 999"),
+        (lambda table: table.slice(0, 5), "5 rows, not 500 for each of 3 variants"),
+        (lambda table: table.take(list(range(table.num_rows - 1, -1, -1))), "the rows are not the trials 500 to 999"),
         (lambda table: table.drop_columns(["metric.m1"]), "metric.m1: no such column"),
-        (lambda table: table.set_column(0, "variant", pyarrow.array(["alpha"] * 1500)), "not the rows of beta"),
+        (
+            lambda table: table.set_column(0, "variant", pyarrow.array(["alpha"] * 1500)),
+            "contains rows of a variant other than beta",
+        ),
     ],
 )
 def test_rows_that_are_not_those_of_the_campaign(folder, changed, problem):

@@ -93,7 +93,7 @@ WRONG = {
     "time that is no number": ('<Point name="p" time="soon"/>', "Point", "time 'soon' is not a number"),
     "time that is not finite": ('<Point name="p" time="inf"/>', "Point", "time 'inf' is not a number"),
     "unknown attribute of a point": ('<Point name="p" tine="1" time="1"/>', "Point", "unknown attribute tine"),
-    "a point's name twice": ('<Point name="hold" time="1"/>', "Point", "the name hold is there twice"),
+    "a point's name twice": ('<Point name="hold" time="1"/>', "Point", "the name hold occurs twice"),
     "unknown part of a point": ('<Point name="p" time="1"><Let/></Point>', "Let", "unknown element"),
     "use without an fmu": ('<Point name="p" time="1"><Use component="c"/></Point>', "Use", "no fmu"),
     "set twice": (
@@ -140,7 +140,7 @@ WRONG = {
     "unknown attribute of a loop": ('<Loop name="l" cut="a.b" points="hold" perod="1"/>', "Loop", "attribute perod"),
     "period of 0": ('<Loop name="l" cut="a.b" points="hold" period="0"/>', "Loop", "period '0' is not a positive"),
     "negative amplitude": ('<Loop name="l" cut="a.b" points="hold" amplitude="-1"/>', "Loop", "amplitude '-1' is not"),
-    "a loop's name twice": ('<Loop name="one" cut="a.b" points="hold"/>', "Loop", "the name one is there twice"),
+    "a loop's name twice": ('<Loop name="one" cut="a.b" points="hold"/>', "Loop", "the name one occurs twice"),
     "unknown part of a loop": ('<Loop name="l" cut="a.b" points="hold"><Use/></Loop>', "Use", "unknown element"),
     "sweep of an unknown loop": (
         '<Sweep name="s" loop="two" point="hold" parameter="c.p" low="1" high="2"/>',

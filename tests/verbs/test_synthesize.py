@@ -94,7 +94,7 @@ def test_a_search_is_validated_and_not_flown_as_a_batch(file, capsys):
     assert main(["validate", str(file)]) == 0
     assert main(["batch", "lunar_descent_2d", "--campaign", str(file)]) == 2
     error = capsys.readouterr().err
-    assert "network_operator: declares a search, which a batch cannot run" in error
+    assert "network_operator: declares a search, which perilune batch cannot run" in error
     assert error.count("\n") == 1
 
 

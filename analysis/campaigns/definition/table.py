@@ -156,7 +156,7 @@ def names(table: TomlTable, key: str, value: object) -> tuple[str, ...]:
     listed = sequence(text)(table, key, value)
     for name in listed:
         if listed.count(name) > 1:
-            raise table.error(key, f"{name!r} is there twice", "name it once")
+            raise table.error(key, f"{name!r} occurs twice", "name it once")
     return listed
 
 

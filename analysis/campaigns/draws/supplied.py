@@ -137,7 +137,7 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) 
             remedy = suggestion(name, [*known, STREAMS])
             raise InputError(path, name, f"{campaign.file} neither draws nor derives this value", remedy)
         if count > 1:
-            raise InputError(path, name, "two columns have this name", "remove one of the two")
+            raise InputError(path, name, "two columns of this name", "remove one of the two")
         if not any(is_of(schema.field(name).type) for is_of in numbers):
             raise InputError(path, name, "not a column of numbers", "give a number in every row")
 

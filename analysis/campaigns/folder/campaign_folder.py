@@ -212,9 +212,7 @@ class CampaignFolder:
 def _check_rows(table: pyarrow.Table, variant: str, trials: range, path: Path) -> None:
     """Reject rows that are not the trials of a variant in order. Raises InputError."""
     if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
-        problem = (
-            f"the rows do not contain each of the trials {trials.start} to {trials.stop - 1} of {variant} exactly once"
-        )
+        problem = f"the rows are not the trials {trials.start} to {trials.stop - 1} of {variant} in ascending order"
         raise InputError(path, "trial", problem, NEW_FOLDER)
     if set(table["variant"].unique().to_pylist()) != {variant}:
         raise InputError(path, "variant", f"contains rows of a variant other than {variant}", NEW_FOLDER)

@@ -189,7 +189,7 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
         kind = kind.value_type
     is_text = pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
     if not is_text or table[name].null_count:
-        raise InputError(path, name, "the column does not contain texts only", NEW_FOLDER)
+        raise InputError(path, name, "not a column of texts", NEW_FOLDER)
 
 
 def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
@@ -221,5 +221,5 @@ def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
     column = table[name]
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
     if column.null_count or not known:
-        raise InputError(path, name, "the column does not contain numbers only", NEW_FOLDER)
+        raise InputError(path, name, "not a column of numbers", NEW_FOLDER)
     return numpy_of(column)

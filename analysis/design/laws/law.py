@@ -165,7 +165,7 @@ def _pairs(pairs: Sequence[tuple[str, object]]) -> dict[str, object]:
     content: dict[str, object] = {}
     for key, value in pairs:
         if key in content:
-            raise ValueError(f"{key} is there twice")
+            raise ValueError(f"{key} occurs twice")
         content[key] = value
     return content
 

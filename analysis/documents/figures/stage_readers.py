@@ -68,7 +68,7 @@ def _phases(
         name = reader.attributes(part, ("value", "name"), ("until",))["name"]
         value = reader.integer(part, "value")
         if any(name == phase.name for phase in phases):
-            raise reader.refuse(part, f"name {name} is there twice", "choose another name")
+            raise reader.refuse(part, f"name {name} occurs twice", "choose another name")
         if value in open_ended:
             raise reader.refuse(
                 part, f"value {value}: the preceding Phase of this value lacks until", 'add until="..." there'
@@ -91,7 +91,7 @@ def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int
         says = reader.attributes(part, ("value", "says"))["says"]
         value = reader.integer(part, "value")
         if value in meanings:
-            raise reader.refuse(part, f"value {value} is there twice", "name each status once")
+            raise reader.refuse(part, f"value {value} occurs twice", "name each status once")
         meanings[value] = says
     return meanings
 

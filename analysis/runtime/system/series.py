@@ -106,7 +106,7 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
         raise InputError(file, place, f"the first column is {names[0]!r}, not {TIME}", FORM)
     for name, count in Counter(names).items():
         if count > 1:
-            raise InputError(file, place, f"column {name} is there twice", "remove one of the two")
+            raise InputError(file, place, f"column {name} occurs twice", "remove one of the two")
 
 
 def _number(file: str, line: int, name: str, text: str) -> float:

@@ -37,7 +37,7 @@ class _RequestReader(AnnotationReader):
             names = [item.name for item in items]
             for position, name in enumerate(names):
                 if name in names[:position]:
-                    raise self.refuse(elements[position], f"the name {name} is there twice", "choose another name")
+                    raise self.refuse(elements[position], f"the name {name} occurs twice", "choose another name")
         return Declaration(self.limits(children["Limits"]), points, loops, sweeps)
 
     def limits(self, elements: list[etree._Element]) -> MarginLimits:

@@ -65,7 +65,7 @@ def test_one_is_selected(campaign):
 REFUSED = {
     "both": (
         '[compare]\nguidance = ["a", "b"]\n[configuration.x]\n',
-        "configuration: given together with [compare]; write the compared FMUs as configurations, or",
+        "configuration: cannot be combined with [compare]; write the compared FMUs as configurations, or",
     ),
     "unknown key": ('[configuration.x]\nfmu = "a"\n', "configuration.x.fmu: unknown key; allowed here: use"),
     "no component": ("[configuration.x.set]\nmass = 3\n", "configuration.x.set.mass: names no component; write"),
@@ -73,7 +73,7 @@ REFUSED = {
     "no name": ('[configuration."a b"]\n', "configuration.a b: 'a b' is not a plain name; use"),
     "dispersed": (
         '[draw."a.b"]\ndistribution = "normal"\nmean = 0\nsigma = 1\n[configuration.x.set]\n"a.b" = 1\n',
-        "configuration.x.set.a.b: also dispersed or derived; keep one",
+        "configuration.x.set.a.b: is also drawn or derived; keep one",
     ),
 }
 

@@ -74,8 +74,8 @@ def test_a_table_in_parts_is_the_table(campaign, size):
 def test_a_table_has_an_end(campaign):
     with pytest.raises(InputError) as caught:
         draw_table(campaign(RANDOM, trials=int(TABLE_TRIALS.default) + 1))
-    says = "1000001 trials, but at most 1000000 can be drawn as one table"
-    remedy = 'give fewer trials, or write draw_scheme = "counter", which draws other samples'
+    says = "1000001 trials are requested, but one table of draws has at most 1000000"
+    remedy = 'give fewer trials, or write draw_scheme = "counter", which yields different samples'
     assert str(caught.value) == f"test.toml: trials: {says}; {remedy}"
 
 

@@ -195,5 +195,5 @@ def test_stream_numbers_do_not_depend_on_order():
 def test_stream_numbers_stay_within_32_bits():
     last = 2**30 - 1
     assert streams(last, "b", "ab") == (1, 2**31 - 1)
-    with pytest.raises(InputError, match=r"^c\.toml: trials: trial 1073741824 with 2 components"):
+    with pytest.raises(InputError, match=r"^c\.toml: trials: trial 1073741824 with 2 random components"):
         streams(last + 1, "b", "ab")

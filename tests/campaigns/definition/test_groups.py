@@ -52,7 +52,7 @@ def test_too_many_groups_are_refused_in_one_line():
     assert len(groups_of([np.arange(float(MAXIMUM_GROUPS))], WHERE)) == 100
     with pytest.raises(InputError) as caught:
         groups_of([np.arange(MAXIMUM_GROUPS + 1.0).repeat(2)], WHERE)
-    says = "at least 101 different values, one group each; group by a quantity with at most 100 values"
+    says = "has at least 101 different values, and each would form a group; group by a quantity with at most 100 values"
     assert str(caught.value) == f"c.toml: group.by: {says}"
 
 

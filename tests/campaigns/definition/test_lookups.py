@@ -117,13 +117,13 @@ def test_a_folder_has_the_table(folder, capsys):
     ("before", "after", "words"),
     [
         ("low = 1\n", "low = 1.5\n",
-         r"reference.csv: trial 0: computed for other inputs \(gain, others\) than those of default"),
-        ("0.1]", "0.2]", "trial 0: computed for other inputs"),
-        ("seed = 3", "seed = 4", "trial 0: computed for other inputs"),
-        ("trials = 5", "trials = 6", "has 5 trials, but the campaign has 6 or more; give trials 5 at most, or"),
+         r"reference.csv: trial 0: computed for inputs \(gain, others\) that differ from the inputs of default"),
+        ("0.1]", "0.2]", "trial 0: computed for inputs"),
+        ("seed = 3", "seed = 4", "trial 0: computed for inputs"),
+        ("trials = 5", "trials = 6", "has 5 trials, but the campaign has 6 or more; give trials at most 5, or"),
         ('"second"', '"third"', "lookup.reference.column: .*reference.csv has no column 'third'"),
-        ("tables/reference.csv", "none.csv", "lookup.reference.file: no file none.csv; write the table"),
-        ("others =", "further =", r"input: further, others: in only one of the table and \[lookup.reference.inputs\]"),
+        ("tables/reference.csv", "none.csv", "lookup.reference.file: no file none.csv; compute the table"),
+        ("others =", "further =", r"input: further, others: occurs in only one of the table and"),
         ('gain = "odd.gain"', 'gain = "odd.y"', "odd.y varies during a simulation; use draws"),
         ('gain = "odd.gain"', 'gain = "odd.gains"', "odd.gains.*neither a signal nor a parameter"),
         ("column =", "columns =", "columns: unknown key"),
@@ -143,10 +143,10 @@ def test_wrong_lookups_are_one_line(folder, before, after, words):
 @pytest.mark.parametrize(
     ("before", "after", "words"),
     [
-        ("trial,inputs", "trial,hash", "its columns do not begin with trial,inputs"),
-        ("\n2,", "\n3,", "row 2: not trial 2 with 4 columns"),
+        ("trial,inputs", "trial,hash", "the header is not trial,inputs"),
+        ("\n2,", "\n3,", "row 2: the row does not contain trial 2 and 4 columns"),
         (",2,20", ",2,much", "row 2: not numbers: 2, much"),
-        (",2,20", ",2", "row 2: not trial 2 with 4 columns"),
+        (",2,20", ",2", "row 2: the row does not contain trial 2 and 4 columns"),
     ],
 )
 @pytest.mark.parametrize("folder", [""], indirect=True)
@@ -187,7 +187,7 @@ def test_other_trials_than_the_campaigns_have_no_lookups(folder):
     ):
         perilune.rare(folder / "odd.ssp", folder / "c.toml", **call)
     edit(folder / "c.toml", "last < 100", "looked_up < 100")
-    with pytest.raises(InputError, match="success: looked_up needs a lookup, which has values for the campaign's own"):
+    with pytest.raises(InputError, match="success: looked_up comes from a lookup table, which covers only the"):
         perilune.rare(folder / "odd.ssp", folder / "c.toml", **(call | {"failure": "last > 1"}))
 
 

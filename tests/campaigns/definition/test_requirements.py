@@ -39,7 +39,7 @@ def test_everything_is_read(campaign):
     [
         ('expression = "mis < 1"', "pinpoint.expression: 'mis' is not a metric; use one of miss, success"),
         ('expression = "1"', "pinpoint.expression: uses no metric"),
-        ("share = 99.87", "pinpoint.share: 99.87 is not between 0 and 1; write a share of 1, or per cent in quotes"),
+        ("share = 99.87", "pinpoint.share: 99.87 is not between 0 and 1; write a fraction, or a percentage in quotes"),
         ("share = 1", "pinpoint.share: 1 is not between 0 and 1"),
         ('share = "100 %"', "pinpoint.share: '100 %' is not between 0 and 1"),
         ('share = "much %"', "pinpoint.share: 'much ' is not constant"),
@@ -87,7 +87,7 @@ def test_what_is_missing_is_said(campaign, key):
 def test_draws_of_all_trials_together_are_refused(campaign, draw, instead):
     text = f"[draw.case]\n{draw}\n{METRICS}"
     assert campaign(text).draws
-    with pytest.raises(InputError, match=rf"requirement: case is drawn by .*; draw it by {instead}"):
+    with pytest.raises(InputError, match=rf"requirement: case has the distribution .*; use {instead}"):
         campaign(text + KEPT)
 
 

@@ -95,7 +95,7 @@ def test_a_sweep_takes_the_place_of_a_fixed_value(campaign):
         ("a.b=1:7:1", "12 trials do not fill a grid of 7 points; give a multiple of 7: trials 7 or 14"),
         ("a.b=1:20:1", "12 trials do not fill a grid of 20 points; give a multiple of 20: trials 20"),
         ("mass=1:2:1", "not a component's variable; give component.variable"),
-        ("d.x=1:2:1", "the campaign draws it in every trial; leave out this sweep"),
+        ("d.x=1:2:1", "the campaign draws it in every trial; omit this sweep"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(campaign, sweep, words):
@@ -111,7 +111,7 @@ def test_what_cannot_be_swept_is_refused(campaign, sweep, words):
 
 def test_requirements_and_sweeps_do_not_go_together(campaign):
     text = '[requirement.lands]\nexpression = "success"\nshare = 0.9\nconfidence = 0.9\n'
-    with pytest.raises(perilune.InputError, match="requirements, whose verdicts need independent trials"):
+    with pytest.raises(perilune.InputError, match="requirements, and their verdicts need independent trials"):
         with_sweeps(campaign(text), {"a.b": "1:2:1"})
 
 

@@ -104,12 +104,15 @@ def test_a_page_says_how_to_fly_its_trials_again(odd, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ({"half": [0.5]}, "late: is drawn, but the file has no such column"),
+        ({"half": [0.5]}, "late: the campaign draws this value, but the file has no such column"),
         ({"half": [0.5], "late": [0.5], "hulf": [1.0]}, "hulf: .* neither draws nor derives this value; .*half"),
         ({"half": [np.nan], "late": [0.5]}, "half: nan in row 0"),
         ({"half": ["a"], "late": [0.5]}, "half: not a column of numbers"),
-        ({"half": [0.5], "late": [0.5], "streams_of": [-1]}, "streams_of: not all values are trial numbers"),
-        ({"half": pyarrow.array([], pyarrow.float64()), "late": pyarrow.array([], pyarrow.float64())}, "no row"),
+        ({"half": [0.5], "late": [0.5], "streams_of": [-1]}, "streams_of: a value is not a trial number"),
+        (
+            {"half": pyarrow.array([], pyarrow.float64()), "late": pyarrow.array([], pyarrow.float64())},
+            "the table is empty",
+        ),
     ],
 )
 def test_refused_files(odd, tmp_path, columns, words):

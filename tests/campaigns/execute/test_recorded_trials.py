@@ -60,11 +60,11 @@ def test_the_key_is_read(tmp_path):
 @pytest.mark.parametrize(
     ("record", "says"),
     [
-        (SAMPLED + "trials = 0\n", "record.trials: 0 trial(s); give 1 or more"),
+        (SAMPLED + "trials = 0\n", "record.trials: 0 trial(s); give n >= 1"),
         (SAMPLED + "trials = -3\n", "record.trials: -3 trial(s)"),
         (SAMPLED + "trials = 2.5\n", "record.trials: 2.5 is not a whole number"),
         (SAMPLED + "trials = true\n", "record.trials: True is not a whole number"),
-        ("trials = 5\n", "record.trials: nothing is sampled; give every = n and signals"),
+        ("trials = 5\n", "record.trials: no signal is recorded over time; give every = n and signals"),
     ],
 )
 def test_the_key_is_refused(tmp_path, record, says):

@@ -231,7 +231,7 @@ def test_recording_what_is_no_signal_is_refused(tmp_path):
         ({"compare": {"guidence": ["astar_guidance"]}}, "compare: guidence: no such component"),
         ({"workers": 0}, "workers: 0: not a positive number"),
         ({"trials": 0}, "trials: 0: not a positive number"),
-        ({"trials": 10**7}, r"trials: 10000000 trials, but at most 1000000"),
+        ({"trials": 10**7}, r"trials: 10000000 trials are requested, but one table of draws has at most 1000000"),
         ({"seed": -1}, "seed: -1 is negative"),
     ],
 )

@@ -107,20 +107,26 @@ def with_column(name, make):
 SHARDS = {
     "none": (
         lambda folder: (folder / "trials" / "000001.parquet").unlink(),
-        "not found: trials from 25 on are missing",
+        "not found; the trials from 25 on are missing",
     ),
     "another batch": (lambda folder: rewrite(folder, says(batch="x")), "belongs to another batch than summary.json"),
-    "number": (lambda folder: rewrite(folder, says(shard=2)), "its contents are not those of the shard in its name"),
-    "span": (lambda folder: rewrite(folder, says(trials=[3, 2])), "trials: its trials are not those of one shard"),
+    "number": (lambda folder: rewrite(folder, says(shard=2)), "its metadata states another shard than its name"),
+    "span": (lambda folder: rewrite(folder, says(trials=[3, 2])), "trials: does not state a valid range of trials"),
     "start": (lambda folder: rewrite(folder, says(trials=[26, 51])), "begins with trial 26, not 25"),
 }
 ROWS = {
-    "order": (lambda table: table.take(np.arange(table.num_rows)[::-1]), "trial: its rows are not trials 25 to 49 of"),
+    "order": (
+        lambda table: table.take(np.arange(table.num_rows)[::-1]),
+        "trial: the rows are not the trials 25 to 49 of",
+    ),
     "numbers": (
         with_column("trial", lambda table: np.asarray(table["trial"]) + 1),
-        "trial: its rows are not trials 25",
+        "trial: the rows are not the trials 25",
     ),
-    "variant": (with_column("variant", lambda table: ["alpha"] * table.num_rows), "variant: not the rows of beta"),
+    "variant": (
+        with_column("variant", lambda table: ["alpha"] * table.num_rows),
+        "variant: contains rows of a variant other than beta",
+    ),
     "kind": (with_column("metric.miss", lambda table: ["x"] * table.num_rows), "metric.miss: not a column of numbers"),
 }
 

@@ -151,7 +151,7 @@ def of_another(folder):
 
 def renamed(folder):
     shutil.copy(shard(folder, 2), shard(folder, 1))
-    return "its contents are not those of the shard in its name"
+    return "its metadata states another shard than its name"
 
 
 @pytest.mark.parametrize("harm", [damage_data, cut_off, of_another, renamed])

@@ -136,7 +136,7 @@ def test_mistakes_are_named(tmp_path, content, words):
         (b"[" * 100_000, "not JSON"),
         (b"\xff", "not UTF-8"),
         (b'{"q": NaN}', "not JSON: NaN is not a number"),
-        (b'{"q": 1, "q": 2}', "not JSON: q is there twice"),
+        (b'{"q": 1, "q": 2}', "not JSON: q occurs twice"),
     ],
 )
 def test_what_is_no_json(tmp_path, text, words):

@@ -151,6 +151,6 @@ def test_a_batch_does_not_fly_a_synthesis(tmp_path):
     path.write_text(TEXT)
     with pytest.raises(
         InputError,
-        match="network_operator: declares a search, which a batch cannot run; search with perilune design search",
+        match="network_operator: declares a search, which perilune batch cannot run; search with perilune",
     ):
         read_campaign(path)

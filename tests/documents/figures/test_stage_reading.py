@@ -190,7 +190,7 @@ WRONG = {
         '<Phases signal="plant.status"><Phase value="1.5" name="a"/></Phases>', "Phase", "value 1.5 is not an integer"
     ),
     "a name twice": (
-        f'<Phases signal="plant.status">{ONE}<Phase value="2" name="a"/></Phases>', "Phase", "name a is there twice"
+        f'<Phases signal="plant.status">{ONE}<Phase value="2" name="a"/></Phases>', "Phase", "name a occurs twice"
     ),
     "a part without an end": (
         f'<Phases signal="plant.status">{ONE}<Phase value="1" name="b"/></Phases>', "Phase", "the preceding Phase of"
@@ -205,7 +205,7 @@ WRONG = {
     ),
     "a meaning twice": (
         f'<Phases signal="plant.status">{ONE}<Meaning value="1" says="a"/><Meaning value="1" says="b"/></Phases>',
-        "Meaning", "value 1 is there twice",
+        "Meaning", "value 1 occurs twice",
     ),
     "spent that is a vector": (
         f'<Phases signal="plant.status" spent="plant.angles">{ONE}</Phases>', "Phases", "spent plant.angles is a vector"

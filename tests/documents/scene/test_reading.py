@@ -251,8 +251,8 @@ WRONG = {
     ),
     "a flat panel": (ROBOT, body("", '<Panel size="1 0 1"/>', "other"), "Panel", "size 1 0 1 is not positive"),
     "a plane with a centre": (ROBOT, '<Surface kind="plane" centre="0 0 0"/>', "Surface", "a plane has no centre"),
-    "a name twice": (ROBOT, body(), "Body", "name it is there twice or reserved"),
-    "a name that is reserved": (ROBOT, body(name="ground"), "Body", "name ground is there twice or reserved"),
+    "a name twice": (ROBOT, body(), "Body", "name it occurs twice or is reserved"),
+    "a name that is reserved": (ROBOT, body(name="ground"), "Body", "name ground occurs twice or is reserved"),
 }  # fmt: skip
 
 

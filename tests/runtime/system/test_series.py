@@ -40,7 +40,7 @@ def test_what_spreadsheets_write(tmp_path):
         ("time\n0\n", ": no column except time; give a column"),
         ("u,time\n0,0\n", ": line 1: the first column is 'u', not time; write"),
         ("time;u\n0;0\n", ": line 1: the first column is 'time;u', not time; write"),
-        ("time,u,u\n0,0,0\n", ": line 1: column u is there twice; remove"),
+        ("time,u,u\n0,0,0\n", ": line 1: column u occurs twice; remove"),
         ("time,u\n0,1\n1\n", ": line 3: 1 values, but there are 2 columns; give"),
         ("time,u\n0,1\n\n1,high\n", ": line 4, column u: 'high' is not a number; give"),
         ("time,u\n0,\n", ": line 2, column u: no number; give"),

@@ -51,7 +51,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
     names = [item.get("name", "").strip() for item in named]
     for index, name in enumerate(names):
         if name in names[:index] or name == GROUND:
-            raise reader.refuse(named[index], f"name {name} is there twice or reserved", "choose another name")
+            raise reader.refuse(named[index], f"name {name} occurs twice or is reserved", "choose another name")
     available = [*(body.name for body in bodies), *(site.name for site in sites)]
     lines = read_available(reader, children["Line"], lambda item: _line(reader, item, names, available, surface))
     starts = {name: name in available for name in names}

@@ -90,7 +90,7 @@ class FrameReader(AnnotationReader):
         names = tuple(element.get(attribute, "").split())
         twice = [name for name in names if names.count(name) > 1]
         if twice:
-            raise self.refuse(element, f"{attribute}: {twice[0]} is there twice", "give each axis a different name")
+            raise self.refuse(element, f"{attribute}: {twice[0]} occurs twice", "give each axis a different name")
         return names
 
     def check_count(self, element: etree._Element, attribute: str, names: Collection[str], members: list[str]) -> None:

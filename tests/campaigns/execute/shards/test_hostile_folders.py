@@ -47,10 +47,16 @@ def with_column(table, name, column):
 
 
 SHARDS = {
-    "fewer rows": (lambda table: table.slice(0, 5), "its rows are not trials 0 to 24"),
-    "a trial twice": (lambda table: with_column(table, "trial", [0, *range(24)]), "its rows are not trials 0 to 24"),
-    "in another order": (lambda table: table.take(list(range(24, -1, -1))), "its rows are not trials 0 to 24"),
-    "another variant": (lambda table: with_column(table, "variant", ["other"] * 25), "not the rows of"),
+    "fewer rows": (lambda table: table.slice(0, 5), "the rows are not the trials 0 to 24"),
+    "a trial twice": (
+        lambda table: with_column(table, "trial", [0, *range(24)]),
+        "the rows are not the trials 0 to 24",
+    ),
+    "in another order": (lambda table: table.take(list(range(24, -1, -1))), "the rows are not the trials 0 to 24"),
+    "another variant": (
+        lambda table: with_column(table, "variant", ["other"] * 25),
+        "contains rows of a variant other than",
+    ),
     "no status": (lambda table: table.drop_columns(["status"]), "status: no such column"),
     "numbers for texts": (lambda table: with_column(table, "status", np.zeros(25)), "status: not a column of texts"),
     "texts for numbers": (

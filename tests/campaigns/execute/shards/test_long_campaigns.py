@@ -129,7 +129,10 @@ def test_more_trials_than_a_table_has(counted, tmp_path, capsys):
     plain = counted.read_text().replace('draw_scheme = "counter"\n', "")
     (tmp_path / "plain.toml").write_text(plain)
     assert main(["batch", SYSTEM, "--campaign", str(tmp_path / "plain.toml"), "--trials", "1000002"]) == 2
-    assert 'can be drawn as one table; give fewer trials, or write draw_scheme = "counter"' in capsys.readouterr().err
+    assert (
+        'one table of draws has at most 1000000; give fewer trials, or write draw_scheme = "counter"'
+        in capsys.readouterr().err
+    )
 
 
 def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
