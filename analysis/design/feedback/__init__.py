@@ -1,1 +1,1 @@
-"""Modal synthesis beyond gains on state and output: derivative feedback, disturbances, divisors of zero."""
+"""Pole placement by derivative feedback, under constant disturbances, and by output feedback through upper levels."""

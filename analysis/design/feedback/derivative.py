@@ -4,10 +4,10 @@
 and -K is the gain on the state that places 1/s_i on (A^-1, A^-1 B). A must be nonsingular, and no pole may be 0. From a
 gain Kx on the state that places the same poles, K = Kx (A - B Kx)^-1.
 
-det(I + B K) is the product of the plant's poles over that of the placed ones. In practice x' is slightly delayed by
-sensing, filter or sampling: a lag h of the derivative, h u' = -u - K x' with h small, preserves the placed poles only
-if all eigenvalues of I + K B have positive real parts. For one input this excludes an odd number of unstable real
-poles; for several it does not, if the whole plant has an even number.
+det(I + B K) is the product of the plant's poles divided by the product of the placed poles. In practice x' is slightly
+delayed by sensing, filter or sampling: a lag h of the derivative, h u' = -u - K x' with h small, preserves the placed
+poles only if all eigenvalues of I + K B have positive real parts. For one input this excludes an odd number of unstable
+real poles; for several inputs it does not if the number of such poles is even.
 
 Lapin's thesis, section 1.3.4, states the task; Abdelaziz and Valasek, "Direct algorithm for pole placement by
 state-derivative feedback for multi-input linear systems - nonsingular case", Kybernetika 41 (2005); lags: Michiels,
@@ -35,7 +35,7 @@ from ..poles.spectrum import Spectrum
 class DerivativeFeedback(Placement):
     """Feedback u = -K x' with K = ``gain`` (m, n): the closed loop is (I + B K)^-1 A.
 
-    ``fast`` (m,) are the eigenvalues of I + K B. A lag of the derivative adds modes at minus these divided by the lag.
+    ``fast`` (m,) are the eigenvalues of I + K B. A lag h of the derivative adds modes near -``fast``/h.
     """
 
     fast: np.ndarray

@@ -2,8 +2,8 @@
 
 x' = A x + B u + E d, y = C x, q' = y - r with constant, unknown d and reference r: u = -K x - Ki q is a gain on the
 state of [A 0; C 0], [B; 0], and at rest y = r, for any d, E and small errors of A and B. For a sampled plant q+ = q + y
-- r and [A 0; C I]. The pair is controllable if (A, B) is and the plant from u to y has no zero at 0, or at the
-multiplier 1: [A B; C 0], or [A - I B; C 0], has full row rank.
+- r and [A 0; C I]. The extended pair is controllable if (A, B) is controllable and the plant from u to y has no zero at
+0, or at the multiplier 1 if it is sampled: [A B; C 0], or [A - I B; C 0], has full row rank.
 
 Davison, "The robust control of a servomechanism problem for linear time-invariant multivariable systems", IEEE
 Transactions on Automatic Control 21 (1976); Lapin's thesis lists modal control under disturbances among its methods.
@@ -48,7 +48,7 @@ def place_integral(
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p outputs without error at rest, p <= m; ``poles`` are in
     1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`. Raises InputError;
-    PlacementError for a plant with a zero at rest, or one that is not controllable.
+    PlacementError for an uncontrollable plant, or one with a zero at rest.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))

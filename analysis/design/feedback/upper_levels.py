@@ -1,24 +1,25 @@
-"""Output feedback by the freedom of the upper levels, which is used to give the zeroth level its poles.
+"""Output feedback: the freedom of the upper levels is used to place the poles of the zeroth level.
 
-F C = Phi_0 B^- - B^- A with B^- = B^+ - K_1 P (`poles/zeroth_level.py`) exists if Phi_0 X = Y, X = B^- C^perp and Y =
-B^- A C^perp (m, n - p), and Phi_0 has its poles. For generic plants with m + p > n any K_1 on the upper level satisfies
-this. Here K_1 is any gain that gives the upper level its n - m poles:
+F C = Phi_0 B^- - B^- A with B^- = B^+ - K_1 P (`poles/zeroth_level.py`) exists if Phi_0 X = Y with X = B^- C^perp and Y
+= B^- A C^perp (m, n - p). Phi_0 must also have the remaining m poles. For generic plants with m + p > n this is
+possible with any K_1 on the upper level. Here K_1 is any gain that gives the upper level its n - m poles:
 
     K_1 = K(theta) + N W,    B_1 N = 0,
 
-with theta the eigenvectors of the upper level's closed loop, that is the matrices Phi_1, Phi_2 .. with these spectra,
-and the factors and one-sided inverses from which they are assembled; and W any matrix on the divisors of zero N of B_1
-= P A B, which affects X and Y but not the upper level. There are (m - 1)(n - m) free numbers:
+Here theta are the eigenvectors of the upper level's closed loop (equivalently, the matrices Phi_1, Phi_2 .. with these
+spectra, and the factors and one-sided inverses from which they are assembled). N spans the right null space of B_1 = P
+A B (its divisors of zero), and W is any matrix: N W affects X and Y but not the upper level. There are (m - 1)(n - m)
+free numbers:
 
     m + p > n:  none is needed; one that makes (Y X^+, Q) observable helps if a diagonal Phi_1 does not;
     m + p = n:  Phi_0 = Y X^-1 has m coefficients to be satisfied;
     m + p < n:  Phi_0 = Y X^+ has, too, and so do the m (n - p - m) equations Y (I - X^+ X) = 0.
 
-m p - n numbers remain, so that m p >= n is the class of plants. A generic plant of it has complex solutions (Brockett
-and Byrnes 1981), and real ones for m p > n (Wang, "Pole placement by static output feedback", Journal of Mathematical
-Systems, Estimation, and Control 2 (1992)); the equations are solved by least squares from random starts. Lapin's
-thesis, section 2.3.1.3, states the aim: controllability by outputs through matrices of desired spectra, divisors of
-zero and of one, and factors on the upper levels. The parametrisation is ours.
+m p - n free numbers remain, so the method requires m p >= n. A generic plant with m p >= n has complex solutions
+(Brockett and Byrnes 1981), and with m p > n real solutions (Wang, "Pole placement by static output feedback", Journal
+of Mathematical Systems, Estimation, and Control 2 (1992)); the equations are solved by least squares from random
+starts. Lapin's thesis, section 2.3.1.3, states the aim: controllability by outputs through matrices with desired
+spectra, divisors of zero and of unity, and factors on the upper levels. The parametrisation is ours.
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ class UpperLevels:
         self.size = self.family.parameters + self.divisors.shape[1] * upper.size
 
     def added(self, free: np.ndarray) -> np.ndarray:
-        """Return N W, which does not affect the upper level."""
+        """Return N W, the term of K_1 that does not affect the upper level."""
         w = self.unit * free[self.family.parameters :].reshape(self.divisors.shape[1], self.upper.size)
         return self.divisors @ w
 
@@ -66,7 +67,7 @@ class UpperLevels:
         return self.family.gain(self.family.at(free[: self.family.parameters])) + self.added(free)
 
     def feedback(self, free: np.ndarray) -> StateFeedback:
-        """Return the gain as u = -K x of the upper level, computed on its levels: poles are exact up to rounding."""
+        """Return the feedback u = -K x of the upper level, computed on its levels: poles are exact up to rounding."""
         a, b = self.level.above
         first = on_levels(self.levels, self.family, free[: self.family.parameters])
         gain = first.gain - self.added(free)
@@ -86,9 +87,10 @@ def output_feedback_upper(
     """Return the gain F (m, p) of **u = F y** that gives A + B F C the poles, for m p >= n.
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``upper`` are the n - m
-    poles of the upper levels, by default the first real distribution. Free numbers are searched from ``starts`` random
-    starts with ``seed``; with m + p > n the result has the smallest |F| of them, else it is the first solution. Raises
-    InputError; PlacementError for another class of plants, uncontrollable levels, or if no start converges.
+    poles of the upper levels, by default of the first distribution without divided pairs. The free numbers are searched
+    from ``starts`` random starts with ``seed``. The result is the solution with the smallest |F| for m + p > n,
+    otherwise the first solution. Raises InputError; PlacementError for m p < n, uncontrollable levels, or if no start
+    converges.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))

@@ -1,4 +1,4 @@
-"""Network operator as expressions: a tree over the sources for every output; notation of operations."""
+"""Expression trees of a network operator, one for each output, and the notation of operations."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
 
 @dataclass(frozen=True, eq=False)
 class OperationNode:
-    """Node on which an output depends: its ``number`` from 1, its binary ``operation``, and its operands.
+    """Node on which an output depends: ``number`` (from 1), binary ``operation``, and operands.
 
     ``source`` is the node's first operand, None for the neutral element of its operation; ``terms`` are the unary
     operations and the nodes at the other ends of its edges, in the order of evaluation.

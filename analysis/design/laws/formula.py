@@ -1,4 +1,4 @@
-"""Control law as formulas: a line for every shared subexpression and for each output."""
+"""Control law as formulas, one line for each shared subexpression and each output."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LONGEST_INLINE = 40  # longest subexpression, in characters, that is written whe
 SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}
 
 
-# operations with their argument more than once, or between bars
+# operations whose formula contains the argument more than once, or between bars
 NEEDS_A_NAME = {
     number for number, notation in UNARY.items() if notation.formula.count("{z}") > 1 or "|" in notation.formula
 }
@@ -47,7 +47,7 @@ class FormulaText(NamedTuple):
 
 
 def formula(law: NetworkOperator) -> dict[str, str]:
-    """Return right sides by left side, in an order in which they can be computed; the outputs are z15 and z16."""
+    """Return the right sides of the formulas by left side, in order of evaluation; the outputs are z15 and z16."""
     outputs = expression_tree(law.matrix)
     nodes = nodes_of(outputs)
     uses = Counter(other.number for node in nodes for _, other in node.terms)

@@ -1,4 +1,4 @@
-"""Files of control laws: a network operator's matrix and parameters as JSON, and as a parameter set."""
+"""Files of control laws: the matrix and parameters of a network operator as JSON, and as a parameter set."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class NetworkOperator:
     """Control law as a network operator.
 
     ``matrix`` has SIZE rows, with operations as in `fmus_src.mathlib.network_operator`; ``q`` are the law's parameters;
-    ``exp_saturation`` is the value of exp where it would exceed 1e8: ``true`` means 1e8, ``legacy`` ln 1e8.
+    ``exp_saturation`` selects the value of exp where it would exceed 1e8: 1e8 for ``true``, ln 1e8 for ``legacy``.
     """
 
     name: str
@@ -61,7 +61,7 @@ class NetworkOperator:
 
 
 def find_law(name: str, folder: Path | None = None) -> Path:
-    """Return the file of a law: NAME stands for laws/NAME.json of this repository, or a path from ``folder``."""
+    """Return the file of a law: laws/NAME.json of this repository for a bare name, otherwise a path from ``folder``."""
     if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
         return LAWS / f"{name}.json"
     path = (folder or Path()) / name
@@ -72,7 +72,7 @@ def find_law(name: str, folder: Path | None = None) -> Path:
 
 
 def read_law(path: Path) -> NetworkOperator:
-    """Return the law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
+    """Return the law in a file. Raises InputError, which names a wrong cell as matrix[row,column], counted from 1."""
     try:
         text = read_input(path, "give a law's file", CAMPAIGN_BYTES).decode("utf-8")
     except UnicodeDecodeError as error:
@@ -85,7 +85,7 @@ def read_law(path: Path) -> NetworkOperator:
 
 
 def law_of(document: object, file: str) -> NetworkOperator:
-    """Return the law in the content of a JSON file, called ``file`` in errors. Raises InputError."""
+    """Return the law in the content of a JSON file, which errors refer to as ``file``. Raises InputError."""
 
     def refuse(element: str, problem: str, remedy: str) -> NoReturn:
         raise InputError(file, element, problem, remedy)
@@ -137,7 +137,7 @@ def _matrix(rows: object, file: str) -> Matrix:
 
 
 def _find_problem(row: int, column: int, entry: object) -> tuple[str, str] | None:
-    """Return what is wrong with a cell, and the remedy; rows and columns count from 1."""
+    """Return the problem of a wrong cell and its remedy; rows and columns count from 1."""
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"
     if row > column:
@@ -175,7 +175,7 @@ def _refuse_constant(text: str) -> NoReturn:
 
 
 def law_parameters(law: NetworkOperator, component: str) -> dict[str, int | float]:
-    """Return the law as values of ``component``'s parameters matrix, q and exp_saturation, by name."""
+    """Return the values of the parameters matrix, q and exp_saturation of ``component``, by name."""
     values: dict[str, int | float] = {}
     for row, entries in enumerate(law.matrix, 1):
         for column, entry in enumerate(entries, 1):

@@ -24,7 +24,7 @@ class GraphLayout:
     """Positions for drawing: ``nodes`` (x, y) by number; ``paths`` by edge, the points from one node to the other."""
 
     def __init__(self, nodes: Sequence[int], edges: Sequence[Edge]) -> None:
-        """Arrange ``nodes``, in an order in which every edge leads forward."""
+        """Arrange ``nodes``, which are in topological order."""
         layer = longest_paths(nodes, edges)
         self.layers: Layers = [[] for _ in range(max(layer.values()) + 1)]
         for node in nodes:
@@ -84,7 +84,7 @@ class GraphLayout:
         return total
 
     def _heights(self) -> dict[Place, float]:
-        """Return heights close to the neighbours' mean that preserve order and gaps within each layer."""
+        """Return heights that are close to the mean of the neighbours and preserve the order and gaps of each layer."""
         offsets = [self._offsets(places) for places in self.layers]
         heights = {
             place: float(offset - row[-1] / 2.0)
@@ -100,14 +100,14 @@ class GraphLayout:
         return heights
 
     def _offsets(self, places: Sequence[Place]) -> np.ndarray:
-        """Return the least height of every place above the first one of its layer."""
+        """Return the least height of each place above the first place of its layer."""
         joint = [isinstance(place, tuple) for place in places]
         gaps = [JOINT_GAP if a or b else NODE_GAP for a, b in itertools.pairwise(joint)]
         return np.cumsum([0.0, *gaps])
 
 
 def longest_paths(nodes: Sequence[int], edges: Sequence[Edge]) -> Mapping[int, int]:
-    """Return the length of the longest path to each node, in edges; ``nodes`` are in an order with edges forward."""
+    """Return the number of edges on the longest path to each node; ``nodes`` are in topological order."""
     length = dict.fromkeys(nodes, 0)
     for node in nodes:
         for start, end in edges:

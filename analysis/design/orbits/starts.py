@@ -18,12 +18,12 @@ ELEMENTS = ("semi_major_axis", "eccentricity", "inclination", "node", "argument_
 
 
 def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
-    """Return terrestrial time (TT) in seconds since J2000.0 (2000-01-01 12:00 TT), as the parameter ``epoch`` takes it.
+    """Return terrestrial time (TT) in seconds since J2000.0 (2000-01-01 12:00 TT), for the parameter ``epoch``.
 
     Parameters
     ----------
     utc : str
-        Date and time of ISO 8601 with a zone: ``"2026-03-20T18:00:00Z"``.
+        Date and time in ISO 8601 with a time zone, for example ``"2026-03-20T18:00:00Z"``.
     leap_seconds : int, optional
         TAI - UTC (s) at that time; 37 from 2017 on, until another leap second is announced. Earlier dates need it.
 
@@ -35,7 +35,7 @@ def epoch(utc: str, *, leap_seconds: int | None = None) -> float:
     Raises
     ------
     InputError
-        The text is no date with a zone, or is before 2017 and has no ``leap_seconds``.
+        The text is not a date with a time zone, or the date is before 2017 and ``leap_seconds`` is missing.
 
     Notes
     -----
@@ -74,29 +74,30 @@ def orbit(
     true_anomaly: float = 0.0,
     mu: float = GRAVITATIONAL_PARAMETER,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return position and velocity of an orbit, as ``initial_position`` and ``initial_velocity`` take them.
+    """Return position and velocity on an orbit, for the parameters ``initial_position`` and ``initial_velocity``.
 
     Parameters
     ----------
     semi_major_axis : float
-        In m; negative of a hyperbola.
+        Semi-major axis (m); negative for a hyperbola.
     eccentricity : float
-        0 to below 1 of an ellipse, above 1 of a hyperbola.
+        From 0 to below 1 for an ellipse, above 1 for a hyperbola.
     inclination, node, argument_of_perigee, true_anomaly : float
-        In rad: from the equator of the inertial axes, from their x axis to the ascending node, from there to the
-        perigee, from there to the spacecraft.
+        Angles (rad): inclination to the x-y plane of the inertial axes, longitude of the ascending node from their x
+        axis, argument of perigee from the node, and true anomaly from perigee.
     mu : float
-        Gravitational parameter of the body (m3/s2), by default the Earth's of GGM03S.
+        Gravitational parameter of the body (m3/s2), by default the Earth's value in GGM03S.
 
     Returns
     -------
     tuple of two numpy arrays
-        Position (m) and velocity (m/s), inertial axes, each of three elements.
+        Position (m) and velocity (m/s) in inertial axes, arrays of three elements.
 
     Raises
     ------
     InputError
-        An element is not finite or of no conic section, or the true anomaly lies beyond a hyperbola's asymptote.
+        An element is not finite, the elements do not define a conic section, or the true anomaly is beyond the
+        asymptote of a hyperbola.
 
     Notes
     -----

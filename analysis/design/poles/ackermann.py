@@ -37,7 +37,7 @@ def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
 def ackermann_of(
     a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, desired: np.ndarray | None = None
 ) -> StateFeedback:
-    """Return the gain of N (p, m, m); ``desired`` are its poles if they are known. Raises PlacementError."""
+    """Return the gain for coefficients N (p, m, m); ``desired`` are the poles if known. Raises PlacementError."""
     rows, condition = last_rows(a, b)
     gain = rows
     for block in coefficients[::-1]:  # Horner
@@ -48,7 +48,7 @@ def ackermann_of(
 
 
 def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarray:
-    """Return the N (p, m, m) of any u = -K x: N = (K - T A^p) V^-1. Raises PlacementError."""
+    """Return the coefficients N (p, m, m) of any feedback u = -K x: N = (K - T A^p) V^-1. Raises PlacementError."""
     stack, power, _ = row_stack(a, b)
     return split(np.linalg.solve(stack.T, (gain - power).T).T, b.shape[1])
 
@@ -56,7 +56,7 @@ def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarra
 def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, float]:
     """Return T (m, n), and cond(U).
 
-    Raises PlacementError in the name of ``formula`` if n is not a multiple of m, or U is singular.
+    Raises PlacementError, which names ``formula``, if n is not a multiple of m or U is singular.
     """
     states, inputs = b.shape
     if states % inputs:
@@ -72,7 +72,7 @@ def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
 
 
 def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError as `last_rows`."""
+    """Return V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError like `last_rows`."""
     rows, condition = last_rows(a, b, formula)
     stacked = [rows]
     for _ in range(len(a) // len(rows)):

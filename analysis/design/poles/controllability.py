@@ -1,4 +1,4 @@
-"""Controllability of a pair (A, B): the matrix U, the indices, and placement by indices for any pair and spectrum.
+"""Controllability of a pair (A, B): its matrix and indices, and placement by indices for any spectrum.
 
 With Q = [b_1 .. A^(k_1 - 1) b_1, b_2 ..], t_i the row of Q^-1 at the end of block i, Gamma = [t_i A^(k_i - 1) B] and
 phi_i the required polynomial of degree k_i, u = -K x with K = Gamma^-1 [t_i phi_i(A)]. Inputs with k_i = 0 get no gain.
@@ -28,10 +28,11 @@ def controllability_matrix(a: np.ndarray, b: np.ndarray, blocks: int) -> np.ndar
 
 
 def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE) -> tuple[int, ...]:
-    """Return k_i (m): the number of b_i, A b_i, .. independent of all before in the order b_1 .. b_m, A b_1 ..
+    """Return the indices k_i (m,): numbers of b_i, A b_i, .. independent of their predecessors in b_1 .. b_m, A b_1 ..
 
-    A column counts if its new component exceeds ``tolerance`` of |B|, or of |A|. Each column is A times the last new
-    direction of its chain, which preserves new components and does not grow with the power. Raises PlacementError.
+    A column counts if its new component exceeds ``tolerance`` times |B|, or |A| for powers above 0. Each column is A
+    times the last new direction of its chain, which preserves new components and does not grow with the power. Raises
+    PlacementError.
     """
     states, inputs = b.shape
     basis = np.zeros((states, 0))

@@ -1,15 +1,16 @@
-"""Use of the freedom of a placement with several inputs: least condition of the eigenvectors, or least gain.
+"""Use of the freedom of a placement with several inputs: well-conditioned eigenvectors, or a small gain.
 
 The eigenvector x of a pole is any vector in the null space of P (A - lambda I), with orthonormal rows of P and P B = 0,
 whose dimension is the rank of B: Moore, "On the flexibility offered by state feedback in multivariable systems beyond
 closed loop eigenvalue assignment", IEEE Transactions on Automatic Control 21 (1976).
 
-A level's Phi_i = S_i D_i S_i^-1 has the poles D_i for any S_i, and the poles can be distributed over the levels. The
-attainable closed loops are those of Moore's eigenvectors, so the search is among these, where every point is a closed
-loop and nothing is singular: quasi-Newton steps (BFGS) from several starts, of which the best is kept. The result is
-placed exactly on the levels (`on_levels`). The search is ours; the criteria are those of Kautsky, Nichols and Van
-Dooren, "Robust pole assignment in linear state feedback", International Journal of Control 41 (1985) and of Kochetkov
-and Utkin, "Minimizing the feedback matrix norm in modal control problems", Automation and Remote Control 75 (2014).
+A level's Phi_i = S_i D_i S_i^-1 has the poles D_i for any S_i, and the poles can be distributed over the levels. Every
+attainable closed loop has eigenvectors of Moore's form, so the search runs over these, where every point is a closed
+loop and nothing is singular: quasi-Newton steps (BFGS) from several starts, the best result of which is used. The
+result is placed exactly on the levels (`on_levels`). The search is ours; the criteria are those of Kautsky, Nichols and
+Van Dooren, "Robust pole assignment in linear state feedback", International Journal of Control 41 (1985) and of
+Kochetkov and Utkin, "Minimizing the feedback matrix norm in modal control problems", Automation and Remote Control 75
+(2014).
 """
 
 from __future__ import annotations
@@ -35,13 +36,13 @@ Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
 class Eigenvectors:
     """Unit eigenvectors of all real poles and pairs as functions of free parameters.
 
-    They are represented by a real matrix Y (n, n): the vectors of the real poles, then sqrt 2 times the real and then
-    the imaginary parts of those of the pairs, so that Y has the singular values of the complex matrix. (A + B K) Y = Y
-    M.
+    They are represented by a real matrix Y (n, n). Its columns are the vectors of the real poles, then sqrt 2 times the
+    real parts and then sqrt 2 times the imaginary parts of the vectors of the pairs, so that Y has the singular values
+    of the complex matrix. (A + B K) Y = Y M.
     """
 
     def __init__(self, level: PoleLevel, spectrum: Spectrum) -> None:
-        """Prepare the pair on level 0, with as many poles as it has states."""
+        """Prepare the pair on level 0 with one pole for each state."""
         self.spectrum = spectrum
         self.a, self.inverse = level.a, np.linalg.pinv(level.b)
         self.reals, self.pairs, self._rank = len(spectrum.real), len(spectrum.pairs), level.rank
@@ -56,7 +57,7 @@ class Eigenvectors:
         self.matrix[first, second] = np.diag(np.imag(spectrum.pairs))
 
     def at(self, free: np.ndarray) -> np.ndarray:
-        """Return Y (n, n) for parameters, of which only directions matter."""
+        """Return Y (n, n) for the parameters; only the direction of each vector matters."""
         directions = self._directions(free)[0]
         vectors = (self._spaces @ directions[:, :, None])[:, :, 0]
         pairs = np.sqrt(2.0) * vectors[self.reals :]
@@ -68,7 +69,7 @@ class Eigenvectors:
         return np.linalg.solve(vectors.T, driven.T).T
 
     def slope(self, free: np.ndarray, by_vectors: np.ndarray) -> np.ndarray:
-        """Return the gradient, in the parameters, of a function with the gradient ``by_vectors`` in Y."""
+        """Return the gradient with respect to the parameters from the gradient ``by_vectors`` with respect to Y."""
         directions, sizes = self._directions(free)
         parts = by_vectors.T
         middle = self.reals + self.pairs
@@ -99,9 +100,9 @@ class Eigenvectors:
 def least_condition(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
 ) -> StateFeedback:
-    """Return the placement of least kappa found in ``starts`` searches. Raises PlacementError.
+    """Return the placement with the smallest kappa found in ``starts`` searches. Raises PlacementError.
 
-    They minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of increasing order q.
+    The searches minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of increasing order q.
     """
     levels, family = family_of(a, b, spectrum, tolerance)
     parameters = _search(family, [partial(condition, order=order) for order in _ORDERS], starts, seed)
@@ -111,9 +112,9 @@ def least_condition(
 def least_norm(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
 ) -> StateFeedback:
-    """Return the placement of least |K| found in ``starts`` searches. Raises PlacementError.
+    """Return the placement with the smallest |K| found in ``starts`` searches. Raises PlacementError.
 
-    They minimise Schatten norms of increasing order q.
+    The searches minimise Schatten norms of K of increasing order q.
     """
     levels, family = family_of(a, b, spectrum, tolerance)
     parameters = _search(family, [partial(gain_norm, family, order=order) for order in _ORDERS], starts, seed)
@@ -141,10 +142,10 @@ def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[
 def on_levels(levels: Sequence[PoleLevel], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
     """Return the placement with these eigenvectors, from its Phi_i.
 
-    Phi of a level has the left eigenvectors w Bt, with w rows of the inverse of the eigenvectors; these rows are chosen
-    by pivoting, so that they are well conditioned. They are B^- up to a factor, and (Bt^+ - B^-) P' is the gain of the
-    level above, which has more inputs than its rank there and is not determined by its Phi alone. The remainder is
-    passed to higher levels through P. If the rows separate a conjugate pair, Phi_i is complex; the gain is not.
+    Phi of a level has the left eigenvectors w Bt, where w are rows of the inverse eigenvector matrix, chosen by
+    pivoting to be well conditioned. These rows are B^- up to a factor, and (Bt^+ - B^-) P' is the gain of the level
+    above, which has more inputs than its rank there and is not determined by its Phi alone. The remainder is passed to
+    higher levels through P. If the rows separate a conjugate pair, Phi_i is complex; the gain is not.
     """
     vectors, poles = family.as_complex(family.at(free))
     desired, above, remaining = [], [], poles
@@ -162,7 +163,7 @@ def on_levels(levels: Sequence[PoleLevel], family: Eigenvectors, free: np.ndarra
 def family_of(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE
 ) -> tuple[list[PoleLevel], Eigenvectors]:
-    """Return the levels of a pair, and the family of its attainable eigenvectors. Raises PlacementError."""
+    """Return the levels of a pair and its attainable eigenvectors. Raises PlacementError."""
     levels = decompose(a, b, tolerance)
     rank = levels[0].rank
     maximum = max(np.unique(spectrum.poles, return_counts=True)[1])
@@ -175,7 +176,7 @@ def family_of(
 def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, seed: int) -> np.ndarray:
     """Return the parameters with the least value of the last objective.
 
-    All starts descend on the first objective for some steps, the best of them on all objectives.
+    The first objective is minimised from all starts for some steps, all objectives only from the best of these.
     """
     random = np.random.default_rng(seed)
     first = [_descend(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]

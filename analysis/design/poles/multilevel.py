@@ -28,7 +28,7 @@ _OUTSIDE = 1e-8  # relative; permitted distance of a user's basis from the drive
 
 @dataclass(frozen=True)
 class PoleLevel:
-    """Level with its pair ``a``, ``b`` = ``left`` ``right``, the rows P = ``down``, and retained singular values."""
+    """Level: its pair ``a`` and ``b`` = ``left`` ``right``, P = ``down``, and the retained singular values."""
 
     a: np.ndarray
     b: np.ndarray
@@ -47,10 +47,10 @@ def decompose(
 ) -> list[PoleLevel]:
     """Return the levels of a pair, level 0 first.
 
-    Bt = U S and R = V' are from the singular value decomposition; values above ``tolerance`` of |B| are retained, on
-    higher levels of |A| |Bt| of the level below. With ``sizes`` the levels are the first states, the next and so on
-    instead, and Bt selects them, so that a level's Phi is in these coordinates. Raises PlacementError for a pair that
-    is not controllable, or states that do not form a level.
+    Bt = U S and R = V' are from the singular value decomposition. Singular values above ``tolerance`` times |B| are
+    retained; on higher levels |B| is replaced by |A| |Bt| of the level below. With ``sizes`` the levels are consecutive
+    groups of states instead, and Bt selects a group, so that the level's Phi is in these coordinates. Raises
+    PlacementError for a pair that is not controllable, or states that do not form a level.
     """
     levels: list[PoleLevel] = []
     scale = float(np.linalg.norm(b, 2))
@@ -60,7 +60,8 @@ def decompose(
         if not rank:
             raise _unreachable(len(levels), len(a), values, scale, tolerance)
         if sizes is None:
-            # signs that do not depend on the state's coordinates: the largest element of each row of R is positive
+            # make the signs independent of the coordinates of the state: the largest element of each row of R is
+            # positive
             remainder = right[:rank]
             signs = np.sign(remainder[np.arange(rank), np.argmax(np.abs(remainder), axis=1)])
             factor, remainder, down = (
@@ -83,8 +84,8 @@ def assemble(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return K of u = K x and B^-, both of level 0, for Phi_i = ``desired``, real or complex, level 0 first.
 
-    ``above`` has, for each level, the required gain of the level above, from which the component in the null space of R
-    is taken, since Phi does not determine it. By default that component is 0.
+    ``above`` contains, for each level, the required gain of the level above. Only its component in the null space of R
+    is used, which Phi does not determine; by default this component is 0.
     """
     gain = inverse = np.zeros((0, 0))
     for i in reversed(range(len(levels))):
@@ -115,7 +116,7 @@ def place_on_levels(
 def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
     """Place the spectrum with diagonal Phi_i, 2 x 2 blocks for pairs, the fastest poles on level 0.
 
-    A pair needs a level of rank 2 or more for itself. Raises PlacementError.
+    Each pair needs two dimensions of one level. Raises PlacementError.
     """
     levels = decompose(a, b, tolerance)
     parts = spectrum.split_by_speed([level.rank for level in levels])

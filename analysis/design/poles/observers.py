@@ -1,7 +1,7 @@
-"""Observers as duals of state feedback: of full order, and of the order of the unmeasured states.
+"""Observers as duals of state feedback: of full order, and of reduced order n - p.
 
 Luenberger, "Observers for multivariable systems", IEEE Transactions on Automatic Control 11 (1966). With W = C^perp
-(orthonormal columns, C W = 0) x = C^+ y + W z, and zeta = z_h - Lr y eliminates y' from the reduced one.
+(orthonormal columns, C W = 0) x = C^+ y + W z, and zeta = z_h - Lr y eliminates y' from the reduced observer.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from .results import Observer, PlacementError, Reason, ReducedObserver, StateFee
 def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Unpack[PlaceOptions]) -> Observer:
     """Return the gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
 
-    ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), whose
-    dual this is: L' = K of (A', C'). Raises InputError; PlacementError if the pair is not observable or the method does
-    not apply.
+    ``a`` is A (n, n), ``c`` C (p, n). L' is the gain K that `place` returns for (A', C') with the same ``options``
+    (method, choice, tolerance, starts, seed). Raises InputError; PlacementError if the pair is not observable or the
+    method does not apply.
     """
     state = state_matrix(a)
     outputs = output_matrix(c, len(state))

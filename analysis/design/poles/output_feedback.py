@@ -19,7 +19,7 @@ from .zeroth_level import ZerothLevel, place_direct, place_square
 
 
 class DecomposedPlant(StrEnum):
-    """Plant of which the levels are taken: direct or dual."""
+    """Plant that is decomposed into levels: direct or dual."""
 
     DIRECT = "direct"  # (A, B, C): the upper level takes n - m poles
     DUAL = "dual"  # (A', C', B'), F transposed: n - p poles
@@ -48,11 +48,12 @@ def output_feedback(
     """Return the gain F (m, p) of **u = F y** that gives A + B F C the poles, for m + p >= n.
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
-    dual, by default both; ``upper`` are the poles of the upper level (n - m of them, dual n - p). Otherwise ``choice``
-    is first, the first distribution that applies; least_norm, the smallest |F| over all real distributions; or
-    smallest, a search from there in the set of all F with these poles, which has m p - n dimensions. For m + p > n
-    generic plants have a solution; for m + p = n one is searched from ``starts`` starts. Raises InputError;
-    PlacementError if no permitted distribution applies, with the reason of the last.
+    dual, by default both are tried. ``upper`` are the poles of the upper level: n - m for the direct plant, n - p for
+    the dual. Without it ``choice`` selects the distribution of poles: ``first`` takes the first that applies,
+    ``least_norm`` the one with the smallest |F| among all real distributions, and ``smallest`` continues from there
+    with a search in the set of all F with these poles, which has m p - n dimensions. For m + p > n generic plants have
+    a solution; for m + p = n a solution is searched from ``starts`` starts. Raises InputError; PlacementError, with the
+    reason for the last distribution, if none applies.
     """
     state = state_matrix(a)
     plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))
@@ -93,7 +94,7 @@ def _placements(
     seed: int,
     refusals: list[PlacementError],
 ) -> Iterator[OutputFeedback]:
-    """Yield placements, direct before dual; append the reasons of inapplicable ones to ``refusals``."""
+    """Yield placements, direct before dual; append to ``refusals`` the reasons for distributions that do not apply."""
     for route, plant in ((DecomposedPlant.DIRECT, (a, b, c)), (DecomposedPlant.DUAL, (a.T, c.T, b.T))):
         if method not in (None, route):
             continue

@@ -1,4 +1,4 @@
-"""All output feedbacks of a plant, and one for several plants, by the generalised Ackermann formula.
+"""Set of all output feedbacks of a plant, and common feedback of several plants, by the generalised Ackermann formula.
 
 A state feedback K(N) is an output feedback, K = -F C, if K(N) C^perp = 0. That is linear in the N_i; m p numbers z
 remain free: N = N* + sum z_j N^j. The spectrum is that of the block companion of N.
@@ -34,7 +34,7 @@ _RESIDUAL = 1e-10  # relative to the right side
 
 @dataclass(frozen=True)
 class OutputFeedbackSet:
-    """Set N = ``particular`` + sum z_j ``directions``[j], arrays (p, m, m) as in `place_polynomial`; see `at`."""
+    """Set of coefficients N = ``particular`` + sum z_j ``directions``[j], arrays (p, m, m) as in `place_polynomial`."""
 
     a: np.ndarray
     b: np.ndarray
@@ -105,8 +105,8 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
 class CommonFeedback:
     """Feedback u = F y with F = ``gain`` (m, p) for all plants.
 
-    ``coefficients`` are the N (plants, p, m, m) of each closed loop, ``residual`` is that of the equations relative to
-    their right side, ``loops`` are the feedback on each plant with its poles, kappa and so on.
+    ``coefficients`` are the N (plants, p, m, m) of the closed loops. ``residual`` is the residual of the equations
+    relative to their right side. ``loops`` contains the feedback on each plant, with its poles and kappa.
     """
 
     gain: np.ndarray
@@ -120,9 +120,9 @@ def common_feedback(
 ) -> CommonFeedback:
     """Return the F of u = F y that gives every plant the prescribed coefficients.
 
-    ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, has the
-    prescribed elements of the N_i, and nan for elements that are free for each plant. Raises InputError, and
-    PlacementError with the residual if there is no such F.
+    ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, contains
+    the prescribed elements of the N_i, and nan for elements that may differ between plants. Raises InputError, and
+    PlacementError, with the residual, if no common F exists.
     """
     if not len(plants):
         raise InputError("modal", "plants", "no plant", "give a list of matrices A")

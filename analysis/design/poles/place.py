@@ -33,9 +33,9 @@ _ORTHONORMAL = 1e-9
 
 
 class FreedomUse(StrEnum):
-    """Criterion for the freedom that several inputs leave."""
+    """Criterion that determines the freedom left by several inputs."""
 
-    DIAGONAL = "diagonal"  # no use: diagonal matrices, blocks for pairs
+    DIAGONAL = "diagonal"  # freedom unused: diagonal matrices, blocks for pairs
     LEAST_CONDITION = "least_condition"  # least condition number of the eigenvectors
     LEAST_NORM = "least_norm"  # least norm of the gain
 
@@ -65,11 +65,12 @@ def place(
 
     ``a`` is A (n, n), ``b`` B (n, m) of x' = A x + B u, or of a sampled plant; ``poles`` are n real or complex numbers
     (1/s, or multipliers), closed under conjugation, with repeated ones repeated. ``method`` is ackermann, bass_gura,
-    indices or multilevel; by default multilevel if its levels have room for the pairs, else indices, and the result's
-    ``method`` tells which. ``choice`` is diagonal, least_condition (of the eigenvectors: least sensitive poles) or
-    least_norm (of K), found by ``starts`` searches with ``seed`` and placed by multilevel. In indices and multilevel, a
-    new direction counts above ``tolerance``, 1e-9, of the matrices from which it is computed, so their units matter.
-    Raises InputError; PlacementError if a method does not apply.
+    indices or multilevel; by default multilevel if every conjugate pair fits on a level, else indices; ``method`` of
+    the result names the method used. ``choice`` is diagonal, least_condition (of the eigenvectors: least sensitive
+    poles) or least_norm (of K), found by ``starts`` searches with ``seed`` and placed by multilevel. The methods
+    indices and multilevel ignore a new direction that is smaller than ``tolerance`` (by default 1e-9) relative to the
+    matrices from which it is computed, so the units of these matrices matter. Raises InputError; PlacementError if a
+    method does not apply.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -118,10 +119,10 @@ def place_levels(
     """Return the gain K of u = -K x from the required matrix Phi_i of each level of the multilevel decomposition.
 
     ``matrices`` are real, (r_i, r_i), level 0 (driven by the inputs) first. ``bases`` (n, r_i) are orthonormal columns
-    that span the levels; then the closed loop is z' = Phi_i z in these coordinates of the level, driven from the level
-    below only, as with angles and rates: bases [I[:, 3:], I[:, :3]] of x = (angles, rates). By default they are those
-    of singular value decompositions, and K is unique only for multiples of I. ``tolerance`` is as in `place`. Raises
-    InputError and PlacementError.
+    that span the levels. In these coordinates z of a level the closed loop is z' = Phi_i z, driven only from the level
+    below; for x = (angles, rates), for example, the bases are [I[:, 3:], I[:, :3]]. By default the bases are from
+    singular value decompositions, and K is then unique only if each Phi_i is a multiple of I. ``tolerance`` is as in
+    `place`. Raises InputError and PlacementError.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -150,7 +151,8 @@ def place_levels(
 def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLike] | np.ndarray) -> StateFeedback:
     """Return the gain K of u = -K x with det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0), n = p m.
 
-    ``coefficients`` are the N (p, m, m), N_0 first: generalised Ackermann formula. Raises InputError, PlacementError.
+    ``coefficients`` are the N_i (p, m, m), N_0 first, of the generalised Ackermann formula. Raises InputError and
+    PlacementError.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -160,8 +162,7 @@ def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLik
 
 
 def polynomial_of_gain(a: ArrayLike, b: ArrayLike, gain: ArrayLike) -> np.ndarray:
-    """Return the N (p, m, m) with which `place_polynomial` returns this K (m, n). Raises InputError and
-    PlacementError."""
+    """Return the N (p, m, m) for which `place_polynomial` gives this K (m, n). Raises InputError and PlacementError."""
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
     return coefficients_of(state, inputs, real_matrix("K", gain, inputs.T.shape))

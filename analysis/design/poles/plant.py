@@ -1,4 +1,4 @@
-"""Matrices of a plant as arguments: checked and converted to real two-dimensional arrays."""
+"""Conversion of a plant's matrices to real two-dimensional arrays, with checks."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from .spectrum import Spectrum
 
 
 def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
-    """Return the coefficients (largest degree, r, r) of a matrix polynomial with the spectrum.
+    """Return the coefficients (largest degree, r, r) of a matrix polynomial with this spectrum.
 
     Column j has degree ``degrees[j]``; its leading coefficient 1 is not stored. Each diagonal element has separate
     poles. Conjugate pairs a +- i b that do not fit on the diagonal each use two elements of odd degree: [(s - a) f, -b
@@ -43,7 +43,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
 def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
     """Return N (p, m, m) of Phi(s) = (s I - S_p) .. (s I - S_1) for ``solvents`` S_1 .. S_p, real (m, m) each.
 
-    Its spectrum is the union of the solvents'. Raises InputError.
+    Its spectrum is the union of the spectra of the solvents. Raises InputError.
     """
     size = len(np.atleast_2d(solvents[0]))
     coefficients = np.eye(size)[None]

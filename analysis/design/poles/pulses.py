@@ -1,4 +1,4 @@
-"""Plants driven by pulses of variable length: exact over a tick with any number of switch-offs.
+"""Plants driven by pulses of variable length, exact over a tick for any number of switch-offs.
 
 Input i has the value U_i from the start of a tick T for tau_i and then 0, so that
 
@@ -6,7 +6,8 @@ Input i has the value U_i from the start of a tick T for tau_i and then 0, so th
     dx+/dx = expm(A T),    dx+/dtau_i = expm(A (T - tau_i)) b_i U_i.
 
 Psi b is a column of expm([A b; 0 0] tau): Van Loan, "Computing integrals involving the matrix exponential", IEEE
-Transactions on Automatic Control 23 (1978). The division at the switch-offs is Lapin's (2.2.1), the formulas are ours.
+Transactions on Automatic Control 23 (1978). The division of the tick at the switch-offs is from Lapin's thesis (2.2.1);
+the formulas are ours.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ class PulsedPlant:
 
     @classmethod
     def of(cls, a: ArrayLike, b: ArrayLike, period: float) -> PulsedPlant:
-        """Return the plant of these arrays. Raises InputError."""
+        """Return a plant from arrays or lists. Raises InputError."""
         state = state_matrix(a)
         if not 0.0 < period < np.inf:
             raise InputError("modal", "period", f"is {period:g} s", "give a time above 0")

@@ -28,10 +28,10 @@ class Reason(StrEnum):
 
 
 class PlacementError(InputError):
-    """Error of a ``routine`` that does not apply to its arguments.
+    """Error of a placement ``routine`` that does not apply to its arguments.
 
-    ``number`` is the criterion: the largest omitted singular value, n/m, a condition number, or a residual. ``problem``
-    states it in words, ``remedy`` what to do.
+    ``number`` is the value that failed the criterion: the largest omitted singular value, n/m, a condition number, or a
+    residual. ``problem`` describes the failure, and ``remedy`` suggests what to do.
     """
 
     def __init__(self, routine: str, reason: Reason, problem: str, number: float, remedy: str) -> None:
@@ -45,10 +45,10 @@ class PlacementError(InputError):
 class Placement:
     """Gain and its closed loop.
 
-    ``method`` is the method that found it; ``wanted`` the requested poles (n,); ``closed_loop`` the real matrix (n, n)
-    with these poles. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None
-    for methods that do not invert one; ``levels`` are the retained singular values on each level of a decomposition,
-    level 0 first.
+    ``method`` is the method that found the gain, ``wanted`` are the requested poles (n,), and ``closed_loop`` is the
+    real closed-loop matrix (n, n). ``condition_u`` is the condition number of the controllability matrix (of Q for
+    "indices"), None for methods that do not invert it. ``levels`` contains the retained singular values on each level
+    of a decomposition, level 0 first.
     """
 
     method: str
@@ -69,10 +69,10 @@ class Placement:
 
     @cached_property
     def kappa(self) -> float:
-        """Condition number of the closed loop's unit eigenvectors: the sensitivity of its poles to small changes.
+        """Condition number of the closed loop's unit eigenvectors, a measure of the sensitivity of its poles.
 
-        Eigenvectors of a repeated pole are taken as orthogonal if there are enough; the number is infinite, or of the
-        order of 1/eps, if there is no full set.
+        Eigenvectors of a repeated pole are chosen orthogonal if it has as many as its multiplicity; otherwise the
+        number is infinite, or of the order of 1/eps.
         """
         vectors = self._eigen[1].astype(complex)
         places = match(self.wanted, self.poles)
@@ -86,7 +86,7 @@ class Placement:
 
     @cached_property
     def error(self) -> float:
-        """Largest distance of a pole from the required pole matched with it."""
+        """Largest distance between a pole and the required pole matched with it."""
         return distance(self.wanted, self.poles)
 
     @cached_property
@@ -113,8 +113,8 @@ class StateFeedback(Placement):
 class OutputFeedback(Placement):
     """Feedback u = F y with F = ``gain`` (m, p): the closed loop is A + B F C.
 
-    ``upper`` are the poles of the upper level, ``condition_x`` is the condition number of X, whose inverse determines
-    Phi_0; None if there are none.
+    ``upper`` are the poles of the upper level, and ``condition_x`` is the condition number of X, whose inverse
+    determines Phi_0; both are None if there is no upper level.
     """
 
     upper: np.ndarray | None = None

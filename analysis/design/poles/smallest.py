@@ -1,10 +1,10 @@
-"""Smallest of all F with the required poles, searched from several such F, with Newton steps on F itself.
+"""Search for the smallest F with the required poles, from several such F, with Newton steps on F itself.
 
-The set of these F has m p - n dimensions. It is described by the coefficients of the characteristic polynomial, whose
-derivatives are those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is
-minimised by sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method improves the poles up to
-rounding: a simple pole with the left and right eigenvectors w, v (w v = 1) moves by dlambda = w B dF C v with F. The
-method is ours.
+The set of these F has m p - n dimensions. It is described by the coefficients of the characteristic polynomial det(s I
+- M), with derivatives from d det = -tr(adj(s I - M) dM), where adj(s I - M) is computed by the method of Faddeev and
+Leverrier. On this set |F| is minimised by sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's
+method improves the poles up to rounding: a simple pole with the left and right eigenvectors w, v (w v = 1) moves by
+dlambda = w B dF C v with F. The method is ours.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ _ALLOWED = 1000.0 * np.finfo(float).eps  # share of kappa |Ac| by which rounding
 
 
 def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Improve the poles by some Newton steps, each the smallest that would reach them; return the best result.
+    """Improve the poles by a few Newton steps of least norm; return the best result.
 
-    The placement formulas use matrices that may be larger than F, and introduce correspondingly larger errors.
+    The placement formulas use matrices that may be larger than F, with correspondingly larger rounding errors.
     """
     best = feedback
     for _ in range(_NEWTON_STEPS):
@@ -62,7 +62,7 @@ def minimise_gain(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndar
 
 
 def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return coefficients of det(s I - M) below the leading one (n,), and those of adj(s I - M) (n, n, n).
+    """Return the coefficients of det(s I - M), without the leading 1 (n,), and of adj(s I - M) (n, n, n).
 
     Both are in descending order.
     """
@@ -75,7 +75,7 @@ def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _search_from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Return the end of successive searches, each from the last result, while it is in the set and smaller."""
+    """Return the result of successive searches, each from the last result, until F hardly becomes smaller."""
     for _ in range(_ROUNDS):
         end = _search(start, a, b, c)
         if end is None or end.norm >= (1.0 - _WORTH) * start.norm:
@@ -85,7 +85,7 @@ def _search_from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndar
 
 
 def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
-    """Return the result of one search, None if it does not have the poles."""
+    """Return the result of one search, None if it misses the required poles."""
     radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
     desired = np.poly(start.wanted / radius).real[1:]
     driven = b * (scale / radius)

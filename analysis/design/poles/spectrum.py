@@ -18,14 +18,14 @@ _CONJUGATE = 1e-8  # relative; agreement of a pole with its conjugate in the inp
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Spectrum: real poles, and of each conjugate pair the pole with positive imaginary part, both ascending."""
+    """Spectrum: the real poles, and the pole with positive imaginary part of each conjugate pair, both ascending."""
 
     real: tuple[float, ...] = ()
     pairs: tuple[complex, ...] = ()
 
     @classmethod
     def of(cls, poles: ArrayLike, size: int, name: str = "poles") -> Spectrum:
-        """Return the spectrum of ``size`` poles. Raises InputError for another number, or unpaired complex poles."""
+        """Return the spectrum of ``size`` poles. Raises InputError for a different number or unpaired complex poles."""
         values = np.asarray(poles)
         if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
             raise InputError("modal", name, "not a list of finite numbers", "give real or complex numbers")
@@ -95,9 +95,10 @@ class Spectrum:
         return Spectrum(tuple(real), tuple(pairs))
 
     def distribute(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Deal the poles to groups of these ``sizes``, neighbours to different ones if possible.
+        """Deal the poles to groups of these ``sizes``, neighbouring poles to different groups if possible.
 
-        Pairs are dealt first. The groups take turns, those with most room first. Returns None if the pairs do not fit.
+        Pairs are dealt first. The groups take turns, beginning with the largest remaining room. Returns None if the
+        pairs do not fit.
         """
         room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
         if not self._fits(room):
@@ -113,7 +114,7 @@ class Spectrum:
         return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def split_by_speed(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Split the poles into these ``sizes``, fastest first as far as pairs permit; return None if they do not.
+        """Split the poles into groups of these ``sizes``, fastest first where pairs permit; None if they do not fit.
 
         A pole goes to the first group that has room for it and leaves room for the pairs that follow.
         """

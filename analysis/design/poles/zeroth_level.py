@@ -1,18 +1,18 @@
-"""Output feedback on the zeroth level of the decomposition.
+"""Output feedback by placing poles on the zeroth and the upper level of the decomposition.
 
 K_1 places n - m poles on (A_1, B_1) = (P A P', P A B), P B = 0. With B^- = B^+ - K_1 P, X = B^- C^perp and Y = B^- A
-C^perp (m x (n - p)) the other m poles are those of
+C^perp (m, n - p) the other m poles are the eigenvalues of
 
     Phi_0 = Y X^+ + Z Q,    Q X = 0,    F = (Phi_0 B^- - B^- A) C^+,    u = F y,
 
-with Z from the dual placement on (Y X^+, Q): then F C = Phi_0 B^- - B^- A, the state feedback of the multilevel
-placement. This works for generic plants with m + p > n. After Van der Woude, "A note on pole placement by static output
-feedback for single-input systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas are ours.
+with Z from the dual placement on (Y X^+, Q). Then F C = Phi_0 B^- - B^- A, which is the state feedback of the
+multilevel placement. This works for generic plants with m + p > n. After Van der Woude, "A note on pole placement by
+static output feedback for single-input systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas are ours.
 
-For m + p = n K_1 determines Phi_0 = Y X^-1, and has to be chosen. The eigenvectors of the upper level's poles are free
-(Phi_1 = S D S^-1); the m equations for the characteristic polynomial of Phi_0 are solved for them by least squares from
-random starts. The method is ours; for m p > n complex solutions are generic (Brockett and Byrnes 1981), real ones are
-not.
+For m + p = n the gain K_1 determines Phi_0 = Y X^-1. The eigenvectors S of the upper level are free (Phi_1 = S D S^-1);
+they are found by least squares, from random starts, from the m equations for the coefficients of the characteristic
+polynomial of Phi_0. The method is ours; for m p > n generic plants have complex solutions (Brockett and Byrnes 1981),
+but not always real ones.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class ZerothLevel:
     """Zeroth level of a plant with full ranks: m + p >= n."""
 
     def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray, basis: np.ndarray | None = None) -> None:
-        """Decompose A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m) is P', by default that of the null space.
+        """Decompose A (n, n), B (n, m), C (p, n); ``basis`` is P' (n, n - m), by default from the null space of B'.
 
         Raises PlacementError.
         """
@@ -60,11 +60,11 @@ class ZerothLevel:
 
     @property
     def is_exact(self) -> bool:
-        """True if m + p = n, so that the gain of the upper level determines the poles of the zeroth."""
+        """True if m + p = n: the gain of the upper level then determines the poles of the zeroth."""
         return self.b.shape[1] + len(self.c) == len(self.a)
 
     def lower_matrices(self, upper_gain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return B^-, X and Y for K_1 of u = K_1 x."""
+        """Return B^-, X and Y for the gain K_1 of the upper level, u = K_1 x."""
         inverse = self.inverse - upper_gain @ self.down
         return inverse, inverse @ self.hidden, inverse @ self.a @ self.hidden
 
@@ -84,7 +84,7 @@ class ZerothLevel:
 
 
 def place_direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
-    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n.
+    """Place ``upper`` (n - m poles) on the upper level and ``lower`` (m poles) on the zeroth, for m + p > n.
 
     Raises PlacementError.
     """
@@ -94,7 +94,7 @@ def place_direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> Output
 def place_zeroth_level(
     level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum
 ) -> OutputFeedback:
-    """Return the feedback of the zeroth level with the gain ``first`` on the upper one. Raises PlacementError."""
+    """Return the feedback with gain ``first`` on the upper level and placed zeroth level. Raises PlacementError."""
     inverse, x, y = level.lower_matrices(-first.gain if first else np.zeros((lower.size, 0)))
     condition = condition_of(x)
     own, q = y @ np.linalg.pinv(x), null_space(x.T).T
@@ -126,10 +126,11 @@ def output_feedback_levels(
 ) -> OutputFeedback:
     """Return the gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level.
 
-    ``upper`` (n - m, n - m) is the matrix of the coordinates basis' x of the upper level in the closed loop; ``basis``
-    (n, n - m) has orthonormal columns with basis' B = 0, by default those of a singular value decomposition. ``poles``
-    are the other m, on the zeroth level. With a basis F is unique. For the dual pass A', C', B' and transpose F. Raises
-    InputError, and PlacementError if the upper level is not completely controllable or the method does not apply.
+    ``upper`` (n - m, n - m) is the closed-loop matrix of the upper level in the coordinates basis' x, where ``basis``
+    (n, n - m) has orthonormal columns with basis' B = 0, by default from a singular value decomposition. ``poles`` are
+    the other m poles, on the zeroth level. F is unique for a prescribed basis. For the dual method pass A', C', B' and
+    transpose F. Raises InputError, and PlacementError if the upper level is not completely controllable or the method
+    does not apply.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
@@ -151,7 +152,7 @@ def output_feedback_levels(
 
 
 def place_square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
-    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p = n.
+    """Place ``upper`` (n - m poles) on the upper level and ``lower`` (m poles) on the zeroth, for m + p = n.
 
     Raises PlacementError.
     """

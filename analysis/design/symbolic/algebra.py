@@ -1,4 +1,4 @@
-"""Common functions for the formulas: access to sympy, matrices with exact elements, and their simplification."""
+"""Import of sympy, and matrices with exact elements and their simplification."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (Non
 
 
 def factor_elements(matrix: Symbols) -> Symbols:
-    """Return the matrix with each element as a product of factors, equal elements alike, so that zeros are detected."""
+    """Return the matrix with each element factored, in a form in which zeros are detected."""
     return matrix.applyfunc(_tidy)
 
 
 def _tidy(expression: Expression) -> Expression:
-    """Return an expression as a quotient of products of factors, sin^2 as 1 - cos^2, so that zeros are detected."""
+    """Return an expression as a quotient of factored products, with sin^2 = 1 - cos^2, so that zeros are detected."""
     sp = sympy()
     angles = sorted({each.args[0] for each in expression.atoms(sp.sin, sp.cos)}, key=str)
     if not angles:
@@ -74,7 +74,7 @@ def is_zero(expression: Expression) -> bool:
 
 
 def inverse_of(matrix: Symbols) -> Symbols | None:
-    """Return the inverse for general values of the symbols, None if there is none."""
+    """Return the inverse for general values of the symbols, None for a singular matrix."""
     determinant = _tidy(matrix.det(method="berkowitz"))
     return None if determinant == 0 else factor_elements(matrix.adjugate() / determinant)
 

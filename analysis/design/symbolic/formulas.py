@@ -9,7 +9,7 @@ from .algebra import Symbols, factor_elements, inverse_of, is_zero, powers, symp
 
 
 def last_symbol_rows(a: Symbols, b: Symbols, formula: str) -> Symbols:
-    """Return T (m, n), the last rows of U^-1. Raises PlacementError in the name of ``formula``."""
+    """Return T (m, n), the last rows of U^-1. Raises PlacementError, which names ``formula``."""
     sp = sympy()
     states, inputs = b.shape
     if states % inputs:

@@ -1,4 +1,4 @@
-"""K and L as symbolic formulas, and their conversion to numbers, LaTeX and kernel functions."""
+"""Gains K and L as symbolic formulas, and their conversion to numbers, LaTeX and kernel functions."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ class SymbolicMethod(StrEnum):
 class SymbolicGain:
     """Gain as a formula: ``gain`` and ``closed_loop`` are sympy matrices, ``letter`` is K or L.
 
-    Elements are products of factors of rational functions; sines and cosines are functions of their angles.
+    Elements are rational functions in factored form, in which sines and cosines are written as functions of their
+    angles.
     """
 
     method: str
@@ -47,9 +48,9 @@ class SymbolicGain:
         return sorted(str(symbol) for symbol in self.gain.free_symbols)
 
     def at(self, values: Mapping[str, float]) -> np.ndarray:
-        """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for a missing one.
+        """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for a missing value.
 
-        It is computed with 30 digits and rounded, so that the evaluation adds no rounding errors.
+        It is evaluated with 30 digits and rounded once to double precision.
         """
         missing = [name for name in self.names if name not in values]
         if missing:
@@ -74,7 +75,7 @@ class SymbolicGain:
         """Return a module with the kernel function ``name``, from the symbols in sorted order to the matrix.
 
         A block's `initialize` or `step` may call it. Raises InputError for a name or symbol that is not valid in
-        Python, or a function that kernels do not have.
+        Python, or a function that kernels do not support.
         """
         return kernel_text(name, self.letter, self.gain)
 
@@ -89,11 +90,11 @@ def symbolic_gain(
 ) -> SymbolicGain:
     """Return K of **u = -K x** as a formula in the symbols of A and B; needs `pip install 'perilune[symbolic]'`.
 
-    ``a`` is A (n, n), ``b`` B (n, m), of numbers and sympy symbols; 0.1 is taken as 1/10. ``required`` are n poles,
-    numbers or symbols for real ones; or matrices, depending on ``method``: for multilevel (the automated algorithm)
-    Phi_i of each level, level 0 first, with ``bases`` as in `place_levels`; for ackermann and bass_gura N_i, N_0 first,
-    as in `place_polynomial`. Poles are taken in order, along the levels' diagonals or n/m for each input. Ranks are
-    those for general values of the symbols. Raises InputError and PlacementError.
+    ``a`` is A (n, n), ``b`` B (n, m), of numbers and sympy symbols; 0.1 is taken as 1/10. ``required`` are n poles
+    (numbers, or symbols for real poles) or matrices. The matrices depend on ``method``: for multilevel, Phi_i of each
+    level, level 0 first, with ``bases`` as in `place_levels`; for ackermann and bass_gura, N_i, N_0 first, as in
+    `place_polynomial`. Poles are assigned in order, along the diagonals of the levels, or n/m to each input. Ranks are
+    determined for general values of the symbols. Raises InputError and PlacementError.
     """
     state = matrix_of("A", a)
     state = matrix_of("A", state, (state.rows, state.rows))
@@ -152,7 +153,7 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
 
 
 def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | None:
-    """Return square matrices of these sizes; None if poles are required instead."""
+    """Return ``required`` as square matrices of these sizes; None if it contains poles instead."""
     if len(required) and not hasattr(required[0], "__len__"):
         return None
     if len(required) != len(sizes):
@@ -180,7 +181,7 @@ def _poles(required: Sequence[Any], states: int) -> list[Expression]:
 
 
 def _polynomial(poles: list[Expression], count: int, size: int) -> list[Symbols]:
-    """Return N_0 .. N_(count - 1), diagonal: input j has the j-th ``count`` poles."""
+    """Return diagonal N_0 .. N_(count - 1) that assign ``count`` consecutive poles to each input."""
     sp = sympy()
     variable = sp.Dummy("s")
     columns = []

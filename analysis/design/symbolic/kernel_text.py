@@ -1,4 +1,4 @@
-"""Writes a matrix of formulas as a kernel function: Python that `perilune export` translates to C."""
+"""Export of a matrix of formulas as a kernel function: Python that `perilune export` translates to C."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
 
 
 def _printer() -> Any:
-    """Return a printer with floats, products instead of powers, and only functions that kernels have."""
+    """Return a printer with floats, products instead of powers, and only the functions that kernels support."""
     printing = importlib.import_module("sympy.printing.str")
     methods = {"Integer": _integer, "Rational": _rational, "Pow": _power, "Function": _function}
     named = {f"_print_{name}": method for name, method in methods.items()}

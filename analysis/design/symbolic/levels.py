@@ -1,9 +1,9 @@
 """Multilevel decomposition in symbols: the automated algorithm of Lapin's thesis, section 2.1.1.
 
-The formulas are those of `poles/multilevel.py` without singular values: Bt are columns of B on which all others depend,
-R = Bt^+ B, and P is a basis of the left divisors of zero of Bt, not orthonormal, so that the next level is (P A P^+, P
-A Bt). If a level's Phi is a multiple of I, or bases are prescribed, the gain equals the numeric one. In this file u = K
-x, as there.
+The formulas are those of `poles/multilevel.py` without singular values: Bt consists of columns of B that span its
+column space, R = Bt^+ B, and P is a basis of the left null space of Bt that is not orthonormal, so that the next level
+is (P A P^+, P A Bt). If each level's Phi is a multiple of I, or bases are prescribed, the gain equals the numeric one.
+As in that file u = K x.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .algebra import Symbols, factor_elements, is_zero, left_inverse, sympy
 
 @dataclass(frozen=True)
 class SymbolicLevel:
-    """Level with A, Bt^+, the pseudo-inverse of R, and P; it has ``rank`` states."""
+    """Level with the matrices A, Bt^+, R^+ and P, and ``rank`` states."""
 
     a: Symbols
     inverse: Symbols
@@ -27,9 +27,9 @@ class SymbolicLevel:
 
 
 def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) -> list[SymbolicLevel]:
-    """Return the levels of a pair, level 0 first; with ``sizes`` they are the first states, the next and so on.
+    """Return the levels of a pair, level 0 first; with ``sizes`` they are consecutive groups of states.
 
-    Raises PlacementError for a pair that is not controllable for general values, or sizes other than the levels'.
+    Raises PlacementError for a pair that is not controllable for general values, or sizes that do not match the levels.
     """
     sp = sympy()
     levels: list[SymbolicLevel] = []

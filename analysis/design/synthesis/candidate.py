@@ -1,4 +1,4 @@
-"""Candidate of the search: its genes, the law they encode, its evaluation, and the interface of the evaluator."""
+"""Candidate of the search: genes, encoded law and evaluation; interface of the evaluator."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Genes(NamedTuple):
 
 
 class Phenotype(NamedTuple):
-    """Law that is simulated: the matrix without unused nodes, and the parameters."""
+    """Law encoded by genes, as simulated: the matrix without unused nodes, and the parameters."""
 
     matrix: Matrix
     q: tuple[float, ...]
@@ -50,7 +50,7 @@ class Evaluation(NamedTuple):
 
 
 class Candidate(NamedTuple):
-    """Evaluated genes, with the law's key and its evaluation."""
+    """Genes, with the key and the evaluation of their law."""
 
     genes: Genes
     key: str
@@ -58,7 +58,7 @@ class Candidate(NamedTuple):
 
 
 def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
-    """Return the law that genes encode."""
+    """Return the law that the genes encode."""
     return Phenotype(prune(apply_variations(bases[genes.basis], genes.variations)), coding.decode(genes.code))
 
 
@@ -69,7 +69,7 @@ class AdmissionThreshold(NamedTuple):
     worst: Standing
 
     def rejects(self, objectives: Sequence[float]) -> bool:
-        """Return True if sums, which can only increase, are too large already."""
+        """Return True if the sums, which can only increase, are already too large."""
         return self.order.standing(np.array(objectives)) >= self.worst
 
 
@@ -87,9 +87,9 @@ class Evaluator(Protocol):
     trials: int  # number of trials of a complete evaluation
 
     def evaluate(self, tasks: Sequence[EvaluationTask], bar: AdmissionThreshold | None) -> list[Evaluation]:
-        """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.
+        """Evaluate laws, each from the first trial not yet known; objectives are sums of non-negative numbers.
 
-        An evaluation may end early only if ``bar`` rejects it.
+        An evaluation may end early only if ``bar`` rejects its sums.
         """
         ...
 
@@ -99,7 +99,7 @@ def random_genes(
 ) -> Genes:
     """Draw ``count`` variations on a basis, each applicable after the previous ones.
 
-    Parameters are near those of ``code``, or anywhere, with equal probability.
+    The parameters are near those of ``code`` or uniformly distributed, with equal probability.
     """
     matrix = bases[basis]
     variations: list[Variation] = []
@@ -118,8 +118,8 @@ def random_genes(
 def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Coding) -> list[Genes]:
     """Return four children of two parents: both crossings of the variations, each with both crossings of the codes.
 
-    Variations and codes are each cut at one random place. A child's variations belong to the basis of the parent that
-    contributes the first segment.
+    Variations and codes are each cut at one random place. A child inherits the basis of the parent that contributes the
+    first segment of variations.
     """
     cut = int(random.integers(1, max(len(first.variations), 2)))
     low = 2 ** int(random.integers(1, max(coding.bits, 2))) - 1

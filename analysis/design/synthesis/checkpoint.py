@@ -1,4 +1,4 @@
-"""State of a search as JSON, with all that is needed to resume it with the same result."""
+"""State of a search as JSON, from which it can be resumed with the same result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fitness of a law, from simulations of the complete system in every trial of a campaign."""
+"""Fitness of a law, from simulations of the complete system in the trials of a campaign."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ VARIANT = "default"
 
 
 class FlightEvaluator:
-    """Evaluator of laws by simulation, as many in parallel as there are workers; see `candidate.Evaluator`.
+    """Evaluator of laws by simulation, one law per worker at a time; see `candidate.Evaluator`.
 
-    ``plan`` overlays the parameters of ``component`` that define a law; ``basic`` has the properties that the search
-    does not vary; ``objectives`` are expressions over metrics. ``evaluated`` is called after each law. A context
-    manager, since it holds the workers.
+    ``plan`` is the campaign, in which the parameters of ``component`` that define a law are replaced; ``basic``
+    supplies the properties that the search does not vary; ``objectives`` are expressions over metrics. ``evaluated`` is
+    called after each law. A context manager, since it holds the workers.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ def fly_law(
     known: Evaluation,
     bar: AdmissionThreshold | None,
 ) -> Evaluation:
-    """Simulate a law's trials after the known ones, in order, until the last or until the bar rejects the sums."""
+    """Simulate the unknown trials of a law in order, until the last or until the bar rejects the sums."""
     sums, successes, flown = known
     trials = flyer.plan.campaign.trials
     changes: dict[str, ParameterValue] | None = overlay

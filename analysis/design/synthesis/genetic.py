@@ -1,11 +1,12 @@
 """Variational genetic algorithm: a population of variations of a basic solution, in Pareto order.
 
-Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents that are
-more likely to mate the fewer dominate them, four children that replace the worst, and the renewal of the basis. Parents
-dominated by L1 and L2 mate with probability max (1 + alpha L)/(1 + L). Added here: variations are sampled where they
-apply, after the earlier ones; half of the random parameters are uniform, half differ from the basis in up to three
-bits; 16 couples are evaluated together; children with objectives equal to a member's are rejected; ties are decided by
-the distance from the ideal point in units of the Pareto set's extent; elites keep their basis.
+Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents whose
+probability to mate decreases with the number of candidates that dominate them, four children that replace the worst
+members, and the renewal of the basis. Two parents dominated by L1 and L2 candidates mate with the larger probability of
+(1 + alpha L)/(1 + L). Added here: variations are sampled where they apply, after the earlier ones; half of the random
+parameters are uniform, half differ from the basis in up to three bits; 16 couples are evaluated together; children with
+the same objectives as a member are rejected; ties are decided by the distance from the ideal point in units of the
+Pareto set's extent; elites keep their basis.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ BROOD = 16  # couples whose children are evaluated together: fixed, so that work
 
 @dataclass
 class SearchState:
-    """State from which a search can be resumed, without its settings."""
+    """State of a search without its settings, sufficient to resume it."""
 
     random: np.random.Generator
     bases: list[Matrix]
@@ -68,7 +69,7 @@ class Search:
         return self.state.succeeded or self.state.generation >= self.settings.generations
 
     def advance(self) -> None:
-        """Evaluate the first population, or the next generation, which ends early if the search does."""
+        """Evaluate the first population or the next generation, which is cut short if the search ends."""
         state = self.state
         if not state.population:
             self._start()
@@ -83,7 +84,7 @@ class Search:
         self._add_to_history()
 
     def _start(self) -> None:
-        """Evaluate the first population: the basic solution as encoded and, unless it suffices, others around it."""
+        """Evaluate the first population: the encoded basic solution and, unless it suffices, random variations."""
         state = self.state
         basic = Genes(0, (NO_VARIATION,) * self.settings.variations, state.code)
         state.population = self._evaluate([basic])
@@ -93,7 +94,7 @@ class Search:
     def choose(self) -> Candidate:
         """Return the best candidate: most successes, then the best compromise of the Pareto set."""
         state = self.state
-        assert state.champion is not None  # there is one from the start on
+        assert state.champion is not None  # set by the first evaluation
         maximum = state.champion.evaluation.successes
         order = ParetoOrder(objectives_of(state.front)).order()
         best = [state.front[place] for place in order if state.front[place].evaluation.successes == maximum]
@@ -127,7 +128,7 @@ class Search:
                 order = ParetoOrder(objectives_of(self.state.population))
 
     def _insert(self, candidate: Candidate, order: ParetoOrder) -> bool:
-        """Replace the worst member by a candidate, unless that is no better or has the objectives of another member."""
+        """Replace the worst member by a candidate unless it is no better or has the same objectives as a member."""
         point = np.array(candidate.evaluation.objectives)
         worst = order.worst()
         twin = np.any(np.all(order.objectives == point, axis=1))
@@ -137,7 +138,7 @@ class Search:
         return True
 
     def _renew(self) -> None:
-        """Replace the basis by the best candidate; elites remain, the others are redrawn."""
+        """Replace the basis by the best candidate; elites remain, the other members are redrawn."""
         state = self.state
         best = self.choose().genes
         state.bases.append(apply_variations(state.bases[best.basis], best.variations))
@@ -149,9 +150,10 @@ class Search:
         state.population = elites + self._evaluate([basic, *others])
 
     def _evaluate(self, genes: Sequence[Genes], bar: AdmissionThreshold | None = None) -> list[Candidate]:
-        """Evaluate genes, except for known laws and those whose known results the bar rejects.
+        """Evaluate genes, except for laws that are known or that the bar rejects on known results.
 
-        A rejected law only leaves its evaluation, complete or not, so that rejecting early does not change the search.
+        Only the evaluation of a rejected law is stored, complete or not, so that early rejection does not change the
+        search.
         """
         state = self.state
         laws = [phenotype(each, state.bases, self.coding) for each in genes]
@@ -175,7 +177,7 @@ class Search:
         return candidates
 
     def _update_best(self, candidate: Candidate) -> None:
-        """Update the Pareto set of all candidates, and the one with most successes."""
+        """Update the Pareto set of all candidates, and the candidate with most successes."""
         state, evaluation = self.state, candidate.evaluation
         point = np.array(evaluation.objectives)
         objectives = objectives_of(state.front)

@@ -1,4 +1,4 @@
-"""Results of a synthesis: the Pareto set, the chosen law as file and parameter set, a log."""
+"""Results of a synthesis: the Pareto set, the chosen law as a file and a parameter set, and a log."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class SynthesisOutcome:
         return sorted(self.search.state.front, key=lambda candidate: candidate.evaluation.objectives)
 
     def objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
-        """Return, for each objective, the sum over the trials, which is minimised, and the mean of one trial."""
+        """Return the minimised sum over the trials and the mean over the trials for each objective."""
         _, _, flown = evaluation = candidate.evaluation
         sums = zip(self.synthesis.objectives, evaluation.objectives, strict=True)
         return {name: {"sum": value, "mean": value / flown} for name, value in sums}
@@ -108,7 +108,7 @@ class SynthesisOutcome:
 
 
 def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
-    """Write the history, a line per generation, with the least sum of every objective so far."""
+    """Write the history, one line per generation, with the smallest sum of each objective so far."""
     names = {f"least_{index}": f"least_sum_of_{name}" for index, name in enumerate(synthesis.objectives, 1)}
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")

@@ -14,12 +14,12 @@ def dominators(objectives: np.ndarray, point: np.ndarray) -> int:
 
 
 def is_dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Return for each row of ``objectives`` (n, m) whether a point (m,) dominates it."""
+    """Return a mask (n,) of the rows of ``objectives`` (n, m) that a point (m,) dominates."""
     return np.all(objectives >= point, axis=1) & np.any(objectives > point, axis=1)
 
 
 def ranks(objectives: np.ndarray) -> np.ndarray:
-    """Count for each row of ``objectives`` (n, m) the others that dominate it; 0: in the Pareto set."""
+    """Return the number of rows that dominate each row of ``objectives`` (n, m); 0 in the Pareto set."""
     size = len(objectives)
     no_worse, better = np.ones((size, size), dtype=bool), np.zeros((size, size), dtype=bool)
     for values in objectives.T:
@@ -29,7 +29,7 @@ def ranks(objectives: np.ndarray) -> np.ndarray:
 
 
 class Standing(NamedTuple):
-    """Standing of a point in a set, the smaller the better: rank first, then distance from the ideal point."""
+    """Standing of a point in a set, smaller is better: compared by rank, then by distance from the ideal point."""
 
     rank: int
     distance: float
@@ -56,14 +56,14 @@ class ParetoOrder:
         self.extent[known] = np.where(spread > 0.0, spread, 1.0)
 
     def distances(self, points: np.ndarray) -> np.ndarray:
-        """Return distances of points (..., m) from the ideal one, in units of the front's extent."""
+        """Return the distances of points (..., m) from the ideal point, in units of the front's extent."""
         return np.sqrt(np.sum(np.square(np.maximum(points - self.ideal, 0.0) / self.extent), axis=-1))
 
     def standing(self, point: np.ndarray) -> Standing:
         return Standing(dominators(self.objectives, point), float(self.distances(point)))
 
     def order(self) -> np.ndarray:
-        """Return indices of the set's points from the best standing to the worst; equal ones in their order."""
+        """Return the indices of the points from the best standing to the worst; equal standings keep their order."""
         return np.lexsort((self.distances(self.objectives), self.ranks))
 
     def worst(self) -> int:

@@ -1,6 +1,6 @@
 """Settings of a search, and its parameters in Gray code.
 
-Neighbouring numbers differ in one bit, so that a flipped bit can be a small change.
+In Gray code neighbouring numbers differ in one bit, so flipping a bit can be a small change.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ def to_gray(number: int) -> int:
 
 
 def from_gray(code: int) -> int:
-    """Return the number with this Gray code: each bit is the parity of the code's bits from there up."""
+    """Return the number with this Gray code: each bit is the parity of this and all higher bits of the code."""
     number = 0
     while code:
         number ^= code
@@ -27,9 +27,9 @@ def from_gray(code: int) -> int:
 
 @dataclass(frozen=True)
 class Coding:
-    """Unsigned fixed-point parameters, each in Gray code, concatenated in one integer.
+    """Coding of unsigned fixed-point parameters, each in Gray code, concatenated in one integer.
 
-    ``count`` parameters of ``integer`` and ``fraction`` bits; the first has the highest bits.
+    There are ``count`` parameters of ``integer`` + ``fraction`` bits; the first has the most significant bits.
     """
 
     count: int
@@ -65,10 +65,10 @@ class Coding:
 class SearchSettings:
     """Settings of the search; defaults as published.
 
-    ``crossovers`` is the number of couples in a generation, ``variations`` that of a candidate; ``mutation`` is the
-    probability for a child, ``crossover`` the weight in the probability that a couple mates; every ``renewal``
-    generations the basis is replaced and only ``elites`` remain; with ``stop`` the search ends once a candidate
-    succeeds in every trial.
+    ``crossovers`` is the number of couples per generation, ``variations`` the number of variations per candidate,
+    ``mutation`` the probability that a child mutates, and ``crossover`` the weight alpha in the probability that a
+    couple mates. Every ``renewal`` generations the basis is replaced and only ``elites`` members remain. With ``stop``
+    the search ends once a candidate succeeds in every trial.
     """
 
     population: int = 256

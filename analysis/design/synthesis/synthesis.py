@@ -1,4 +1,4 @@
-"""Runs a synthesis: evaluator, search, checkpoints, results."""
+"""Execution of a synthesis: evaluator, search, checkpoints, results."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ def run_synthesis(
     """Search for laws. Raises InputError before any simulation.
 
     ``seed`` replaces the campaign's; ``workers`` is the number of laws evaluated in parallel (default: one per
-    processor) and does not change the result. With ``output`` a checkpoint is written there after every generation,
-    from which ``resume`` continues, and the results at the end. The search ends with the generation in which the number
-    of evaluated laws reaches ``evaluations``.
+    processor) and does not change the result. With ``output``, a checkpoint from which ``resume`` continues is written
+    there after every generation, and the results at the end. The search ends with the generation in which the number of
+    evaluated laws reaches ``evaluations``.
     """
     output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
@@ -88,7 +88,7 @@ def run_synthesis(
 
 
 def _checkpoint(output: Path | None, resume: bool) -> Path | None:
-    """Return the checkpoint's file, None if there is no ``output``.
+    """Return the path of the checkpoint, None without ``output``.
 
     Raises InputError if a checkpoint would be overwritten, or if there is no folder for ``resume``.
     """
@@ -105,7 +105,7 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
 
 
 def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
-    """Return the prepared system, after checking that the component can take a law."""
+    """Return the prepared system, after checking that the component accepts a law."""
     without_law = BatchPlan(plan.system, plan.campaign, plan.options, plan.campaign_sha256)
     prepared = check_plan(without_law)[VARIANT]
     fmus, component = prepared.network.fmus, synthesis.component
@@ -122,7 +122,7 @@ def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
 
 
 def _simulate_basic_law(synthesis: Synthesis, plan: BatchPlan) -> None:
-    """Simulate the basic solution once: a system that fails with it would fail with every law."""
+    """Simulate the basic solution once, since a system that cannot run with it could not run with any law."""
     flyer = Flyer(plan)
     try:
         result = flyer.fly_one(VARIANT, 0, law_parameters(synthesis.basic, synthesis.component))

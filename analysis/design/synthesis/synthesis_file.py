@@ -1,4 +1,4 @@
-"""Reads the TOML file of a synthesis: a campaign, and the table [network_operator] of the search."""
+"""Reader of the TOML file of a synthesis: a campaign, and the table [network_operator] of the search."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ LIMITS: Mapping[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Synthesis:
-    """Synthesis as declared.
+    """Declaration of a synthesis.
 
-    ``component`` is simulated by ``fmu`` if one is named; the search begins with the law ``basic``; ``objectives`` are
-    expressions over metrics by name, to be minimised. ``step`` and ``stop_time`` (s) replace the system's. ``sha256``
-    is that of the file.
+    ``fmu``, if named, replaces the FMU of ``component``; the search begins with the law ``basic``; ``objectives``
+    contains expressions over metrics, by name, to be minimised. ``step`` and ``stop_time`` (s) replace the values of
+    the system. ``sha256`` is the hash of the file.
     """
 
     campaign: Campaign
@@ -72,7 +72,7 @@ class Synthesis:
 
 
 def find_search(name: str) -> Path:
-    """Return the file of a search: NAME stands for laws/searches/NAME.toml of this repository, or a path."""
+    """Return the file of a search: a path, or laws/searches/NAME.toml of this repository for a bare name."""
     own = SEARCHES / f"{name}.toml"
     return own if own.is_file() and Path(name).name == name else Path(name)
 

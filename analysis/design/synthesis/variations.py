@@ -1,8 +1,9 @@
 """Small variations of a network operator's matrix: the difference between a candidate and the basic solution.
 
-Every sequence of variations turns an admissible matrix into an admissible one: upper triangular, every node that is not
-a source and has an outgoing edge has an incoming edge as well, and the outputs keep theirs. A variation that does not
-apply changes nothing; after another one, or on another basis, it may apply.
+Every sequence of variations turns an admissible matrix into an admissible one. An admissible matrix is upper
+triangular, every node with an outgoing edge that is not a source also has an incoming edge, and each output has an
+incoming edge. A variation that does not apply changes nothing; it may apply after another variation, or on another
+basis.
 
 Source: Diveev 2010; Diveev and Sofronova 2012 (small variations of the basic solution).
 """

@@ -1,1 +1,1 @@
-"""Plans of least propellant: direct method, and bounds of transfers and landings."""
+"""Trajectories of least propellant: direct method, and lower bounds for transfers and landings."""

@@ -1,10 +1,11 @@
 """Point-mass problem with fixed time as a sequence of convex problems.
 
-Second-order cone programmes, solved by Clarabel. The size of thrust acceleration s >= |u| replaces s = |u|, the
-logarithm z of the mass ratio replaces the mass (Acikmese and Ploen 2007, "Convex programming approach to powered
-descent guidance for Mars landing"); thrust limits and gravity are linearised about the last solution until it no longer
-changes. Tilt and glide slope are cones (Acikmese, Carson and Blackmore 2013, "Lossless convexification of nonconvex
-control bound and pointing constraints of the soft landing optimal control problem").
+The problems are second-order cone programmes, solved by Clarabel. The constraint s >= |u| on the magnitude of the
+thrust acceleration replaces s = |u|, and the logarithm z of the mass ratio replaces the mass (Acikmese and Ploen 2007,
+"Convex programming approach to powered descent guidance for Mars landing"); thrust limits and gravity are linearised
+about the last solution until the solution no longer changes. Limits on tilt and glide slope are cones (Acikmese, Carson
+and Blackmore 2013, "Lossless convexification of nonconvex control bound and pointing constraints of the soft landing
+optimal control problem").
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ TOLERANCE = 1e-10
 
 @dataclass(frozen=True)
 class PointMassPath:
-    """Solution at ``time`` (s), N + 1 points: ``position`` (m), ``velocity`` (m/s), a row each, and ``log_mass``.
+    """Solution at N + 1 points of ``time`` (s): rows of ``position`` (m) and ``velocity`` (m/s), and ``log_mass``.
 
-    ``log_mass`` is ln of mass over the initial mass. Over each of the N intervals ``thrust_acceleration`` (m/s2) is
-    constant, and ``size`` (m/s2) is its upper bound s in the convex form.
+    ``log_mass`` is the logarithm of the mass over the initial mass. ``thrust_acceleration`` (m/s2) is constant over
+    each of the N intervals, and ``size`` (m/s2) is the upper bound s of its magnitude in the convex form.
     """
 
     time: np.ndarray
@@ -49,7 +50,7 @@ class PointMassPath:
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 
     def make_path(self, problem: PointMassProblem) -> PlannedPath:
-        """Return the path of a ``problem`` in a plane, in the form of plans."""
+        """Return the solution of a planar ``problem`` as the path of a plan."""
         force = self.thrust_acceleration
         throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
         pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)
@@ -61,7 +62,8 @@ def solve_fixed_time(
 ) -> PointMassPath | None:
     """Minimise the propellant in ``duration`` (s) with ``intervals`` intervals; return None if it is infeasible.
 
-    ``near``, a solution with as many intervals for another time, replaces straight lines as the first reference.
+    The first reference is ``near``, a solution for another duration with as many intervals, or by default straight
+    lines.
     """
     if near is None:
         fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
@@ -80,7 +82,7 @@ def solve_fixed_time(
 
 
 class _Layout:
-    """Layout of the unknowns: r, v (N + 1 rows), z (N + 1), u (N rows), s (N), in scaled units."""
+    """Layout of the scaled unknowns: r and v (N + 1 rows each), z (N + 1), u (N rows), s (N)."""
 
     def __init__(self, intervals: int, axes: int) -> None:
         points = intervals + 1
@@ -97,7 +99,7 @@ class _Layout:
 def _solve(
     problem: PointMassProblem, duration: float, about: np.ndarray, log_about: np.ndarray
 ) -> PointMassPath | None:
-    """Solve one convex problem, linearised about a path, scaled by length, speed and derived units."""
+    """Solve one convex problem, linearised about a path and scaled by length, speed and units derived from them."""
     intervals, axes = about.shape[0] - 1, about.shape[1]
     unit = problem.speed**2 / problem.length
     h = duration / intervals * problem.speed / problem.length
@@ -170,7 +172,7 @@ def _solve(
 
 
 def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
-    """Return the first rows of all blocks, then the second rows, and so on: one cone after another."""
+    """Interleave the rows of the blocks: the first row of each, then the second, so that each group is one cone."""
     count = parts[0].shape[0]
     order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()
     return sparse.csr_array(sparse.vstack(parts, format="csr")[order])
@@ -179,7 +181,7 @@ def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
 def _clarabel(
     cost: np.ndarray, rows: list[sparse.csr_array], right: list[np.ndarray], cones: list[object]
 ) -> np.ndarray | None:
-    """Return the minimiser of cost . x with right - rows x in the cones, None if there is none."""
+    """Return the x that minimises cost . x with right - rows x in the cones, None if there is none."""
     settings = clarabel().DefaultSettings()
     settings.verbose = False
     settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = TOLERANCE

@@ -1,4 +1,4 @@
-"""Declared inputs of a landing's bound: the `org.perilune.bound` annotation of an SSD, and its values."""
+"""Inputs of a landing's bound: the annotation `org.perilune.bound` of an SSD, and the values it refers to."""
 
 from __future__ import annotations
 
@@ -39,9 +39,10 @@ Inputs = Mapping[str, float | tuple[float, ...]]
 
 
 def read_inputs(prepared: PreparedSystem) -> Inputs | None:
-    """Return the values, in SI, of the bound of a system's landing; None if its SSD declares no bound.
+    """Return the inputs of the bound of a system's landing, in SI units; None if its SSD declares no bound.
 
-    They are those of the prepared system, overridden by the parameter set from which braking starts. Raises InputError.
+    They are the values of the prepared system, overridden by the parameter set from which braking starts. Raises
+    InputError.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
     return None if annotation is None else _BoundReader(prepared).inputs(annotation)
@@ -82,7 +83,7 @@ class _BoundReader(AnnotationReader):
         return inputs
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
-        """Return a parameter's setting, or its FMU's start value; a number is returned as such."""
+        """Return the set value of a parameter, or the start value in its FMU; a number is returned unchanged."""
         if NUMBER.fullmatch(name):
             return float(name)
         component, variable = split_name(name, prepared.network.fmus)
@@ -97,9 +98,9 @@ class _BoundReader(AnnotationReader):
 
 
 def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
-    """Return the bound's vehicle and landing, in the plane of start and site; ``file`` is named in errors.
+    """Return the vehicle and the landing of the bound, in the plane of start and site; ``file`` is named in errors.
 
-    The bound is for an engine that can be off: its least thrust is 0.
+    The bound assumes an engine that can be switched off: the least thrust is 0.
     """
     values = _numbers(inputs)
     arm = np.add(inputs["position"], (0.0, 0.0, values["moon_radius"]))
@@ -133,7 +134,7 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
 
 
 def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
-    """Return the pieces into which a landing is divided, by name: the bounded problem, and the initial mass (kg)."""
+    """Return the problem and the initial mass (kg) of each piece into which a landing is divided, by name."""
     values = _numbers(inputs)
     vehicle, landing = landing_of(inputs, file)
     pieces = {}

@@ -1,6 +1,7 @@
-"""Problem of a powered descent in three axes for its bound, from numbers by role.
+"""Problem of a powered descent in three axes, from numbers by role, for the computation of its bound.
 
-Frame of the landing site: two horizontal axes and one up; the Moon's centre is ``moon_radius`` below the origin.
+In the frame of the landing site the first two axes are horizontal and the third points up; the Moon's centre is
+``moon_radius`` below the origin.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ REMEDY = "correct the inputs of the bound"
 
 
 def check_roles(sizes: Mapping[str, int], where: tuple[str, str]) -> None:
-    """Reject ``sizes``, the count of numbers by role, that are not those of a descent. Raises InputError."""
+    """Reject ``sizes``, the count of numbers by role, unless they match a descent. Raises InputError."""
     file, element = where
     for name, size in sizes.items():
         if name not in SIZES:
@@ -36,8 +37,8 @@ def check_roles(sizes: Mapping[str, int], where: tuple[str, str]) -> None:
 def descent_problem(inputs: Mapping[str, Sequence[float]], where: tuple[str, str]) -> tuple[PointMassProblem, float]:
     """Return the problem of a descent to rest at the target, and its initial mass (kg).
 
-    ``inputs`` are SI numbers by the names of `SIZES`, checked by `check_roles`; ``where`` (file, element) is named in
-    errors. Raises InputError.
+    ``inputs`` contains numbers in SI units, by the names in `SIZES`, already checked by `check_roles`; ``where`` (file,
+    element) is named in errors. Raises InputError.
     """
     file, element = where
     number = {name: OPTIONAL.get(name, math.nan) for name in SIZES if SIZES[name] == 1}

@@ -1,4 +1,4 @@
-"""Bound of a single-burn braking and landing, and the direct method that verifies it."""
+"""Lower bound on the propellant of a single-burn braking and landing, and its verification by the direct method."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .vehicle import Landing, Vehicle
 
 @dataclass(frozen=True)
 class Direct:
-    """Result of the direct method: propellant over the initial mass, and duration (s)."""
+    """Result of the direct method: the propellant as a fraction of the initial mass, and the duration (s)."""
 
     propellant_fraction: float
     duration: float
@@ -25,9 +25,9 @@ class Direct:
 
 @dataclass(frozen=True)
 class LandingStudy:
-    """Bound of a landing; ``looseness`` (m/s2) is that of the convex form, ``direct`` is None if not requested.
+    """Bound of a landing; ``looseness`` (m/s2) is the slack of the convex form, ``direct`` is None if not requested.
 
-    ``pieces``: propellant (kg) of the phases into which a system divides its landing, each bounded separately.
+    ``pieces`` contains the bound on the propellant (kg) of each phase into which a system divides its landing, by name.
     """
 
     vehicle: Vehicle

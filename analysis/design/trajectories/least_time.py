@@ -1,4 +1,4 @@
-"""Duration of least propellant for a point-mass problem: a bracket from coarse solutions, then a search within it."""
+"""Duration of least propellant of a point-mass problem: a bracket from coarse solutions, and a search within it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ACCURACY = 1e-2  # s; the propellant is flat there
 
 
 def least_propellant(problem: PointMassProblem, intervals: int, accuracy: float = ACCURACY) -> PointMassPath:
-    """Return the best path over all durations, searched with ``accuracy`` (s). Raises `PlanError`."""
+    """Return the path of least propellant over all durations, searched to an ``accuracy`` (s). Raises `PlanError`."""
     first, last = _bracket(problem)
 
     paths: dict[float, PointMassPath] = {}
@@ -37,7 +37,7 @@ def least_propellant(problem: PointMassProblem, intervals: int, accuracy: float 
 
 
 def _bracket(problem: PointMassProblem) -> tuple[float, float]:
-    """Return durations (s) on both sides of the best, from coarse solutions at increasing durations."""
+    """Return durations (s) below and above the best duration, from coarse solutions at increasing durations."""
     times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
     best, minimum = None, 1.0
     for index, time in enumerate(times):

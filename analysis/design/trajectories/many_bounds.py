@@ -1,4 +1,4 @@
-"""Bounds of many independent descents, in parallel processes."""
+"""Bounds on the propellant of many independent descents, computed in parallel processes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Bounded = tuple[float, float]
 
 
 def bound_descent(intervals: int, problem: PointMassProblem) -> Bounded:
-    """Return the least propellant over the initial mass, and its duration (s); nan if there is no such descent."""
+    """Return the least propellant as a fraction of the initial mass, and the duration (s); nan if no descent exists."""
     try:
         path = least_propellant(problem, intervals, ACCURACY)
     except PlanError:
@@ -28,7 +28,7 @@ def bound_descent(intervals: int, problem: PointMassProblem) -> Bounded:
 
 
 def bound_descents(problems: Sequence[PointMassProblem], intervals: int, workers: int) -> Iterator[Bounded]:
-    """Yield `bound_descent` of each, in order. Raises InputError for a missing solver."""
+    """Yield `bound_descent` of each problem, in order. Raises InputError for a missing solver."""
     clarabel()
     solve = partial(bound_descent, intervals)
     if workers == 1:

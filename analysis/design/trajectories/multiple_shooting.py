@@ -1,8 +1,8 @@
-"""Direct multiple shooting of a free-time problem: constant controls over equal intervals, a Runge-Kutta step each.
+"""Direct multiple shooting of a free-time problem: constant controls and one Runge-Kutta step per interval.
 
-The states at the ends of all intervals are unknowns, too, and IPOPT (Waechter and Biegler 2006) solves the resulting
-sparse nonlinear programme; CasADi (Andersson et al. 2019) formulates it with its derivatives. Solving the point-mass
-problem in this way, from a crude guess, verifies the convex form.
+The states at the ends of all equal intervals are additional unknowns, and IPOPT (Waechter and Biegler 2006) solves the
+resulting sparse nonlinear programme; CasADi (Andersson et al. 2019) formulates it with its derivatives. Solving the
+point-mass problem in this way, from a crude guess, verifies the convex form.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ THROTTLE = 0.7  # throttle of the guess
 
 @dataclass(frozen=True)
 class ShootingProblem:
-    """Problem of least last state, from ``start`` to ``end`` (nan: free) in free time.
+    """Problem to minimise the last state, from ``start`` to ``end`` (nan for a free element) in free time.
 
-    States and controls are scaled. ``rate`` returns the derivative of the states (a CasADi vector) by time in s from
-    states and controls; ``low`` and ``high`` bound the controls.
+    States and controls are scaled. ``rate`` returns the derivative of the states with respect to time in s (a CasADi
+    vector) from states and controls; ``low`` and ``high`` bound the controls.
     """
 
     rate: Callable[[Symbol, Symbol], Symbol]
@@ -39,10 +39,10 @@ class ShootingProblem:
 
 @dataclass(frozen=True)
 class Shooting:
-    """Solution: states at the N + 1 ends of intervals, controls over the N intervals, a row each; ``duration`` in s.
+    """Solution: N + 1 rows of states at the ends of intervals, N rows of controls, and the ``duration`` (s).
 
-    ``costates``, a row for each of the last N ends, are the derivatives of the last state with respect to the states
-    there: multipliers of the continuity conditions; None for a guess.
+    ``costates`` contains a row for each of the last N ends: the derivatives of the final value of the last state with
+    respect to the states at that end, which are the multipliers of the continuity conditions. It is None for a guess.
     """
 
     duration: float
@@ -97,9 +97,9 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
 
 
 def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float, float]:
-    """Return propellant fraction and duration (s) by multiple shooting on ``intervals`` intervals.
+    """Compute the propellant fraction and the duration (s) by multiple shooting on ``intervals`` intervals.
 
-    States: position, velocity, propellant over the initial mass. Raises `PlanError`.
+    The states are position, velocity, and propellant over the initial mass. Raises `PlanError`.
     """
     length, speed = problem.length, problem.speed
     ca = casadi()
@@ -122,7 +122,7 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
 
 
 def _guess(problem: PointMassProblem, start: np.ndarray, end: np.ndarray, intervals: int) -> Shooting:
-    """Return straight lines over the natural time, with constant thrust along the change of velocity or upwards."""
+    """Return a guess: straight lines over the natural time, with constant thrust along the velocity change or up."""
     duration = problem.natural_time
     fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
     spent = 1.0 - math.exp(-THROTTLE * problem.most * duration / problem.exhaust_speed)

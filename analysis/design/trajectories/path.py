@@ -1,4 +1,4 @@
-"""Path of a plan, of any origin: data for pages and tables."""
+"""Path of a plan, independent of the method that found it: data for pages and tables."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ALL = 1.0 - 1e-6  # share above which it counts as full
 
 
 class PlanError(EndedError):
-    """Failure to find a requested plan; the message names it and the reason."""
+    """Failure to find a requested plan; the message names the plan and the reason."""
 
     def __init__(self, message: str, status: int = ExitStatus.NOT_MET) -> None:
         super().__init__(message, status)
@@ -21,11 +21,12 @@ class PlanError(EndedError):
 
 @dataclass(frozen=True)
 class PlannedPath:
-    """Plan at N + 1 times (s) and over the N intervals between them.
+    """Path of a plan at N + 1 times (s) and over the N intervals between them.
 
-    ``position`` (m) and ``velocity`` (m/s) have a row each, along and up; ``propellant`` is relative to the initial
-    mass. Over each interval ``throttle`` is the fraction of the engine's largest thrust, and ``pitch`` (rad) the angle
-    of thrust from the first axis in its middle, nan if there is no thrust.
+    ``position`` (m) and ``velocity`` (m/s) contain a row for each time, with the components along and up;
+    ``propellant`` is relative to the initial mass. For each interval ``throttle`` is the fraction of the engine's
+    largest thrust, and ``pitch`` (rad) is the angle of thrust from the first axis in the middle of the interval, nan
+    without thrust.
     """
 
     time: np.ndarray
@@ -50,7 +51,7 @@ class PlannedPath:
         return (self.time[1:] + self.time[:-1]) / 2.0
 
     def burns(self) -> list[tuple[float, float]]:
-        """Begin and end (s) of every stretch above least throttle; intermediate intervals are divided in proportion."""
+        """Begin and end (s) of every burn above least throttle; intervals at partial throttle count in proportion."""
         low, high = float(self.throttle.min()), float(self.throttle.max())
         if not high > low:
             return [(float(self.time[0]), self.duration)]

@@ -26,7 +26,7 @@ class UniformGravity:
         return (*(0.0 * x for x in level), 0.0 * up - self.value)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
-        """Return its derivative by position (1/s2) as matrices, one for each row of ``position`` (m)."""
+        """Return the gradient of gravity (1/s2), a matrix for each row of ``position`` (m)."""
         return np.zeros((*position.shape, position.shape[1]))
 
 
@@ -48,7 +48,7 @@ class CentralGravity:
         return (*(-pull * x for x in level), -pull * up)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
-        """Return mu/r^3 (3 u u' - 1), the derivative by position (1/s2), for each row of ``position`` (m)."""
+        """Return the gradient of gravity (1/s2), mu/r^3 (3 u u' - I), for each row of ``position`` (m)."""
         arm = position.copy()
         arm[:, -1] += self.radius
         distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
@@ -58,13 +58,13 @@ class CentralGravity:
 
 @dataclass(frozen=True)
 class PointMassProblem:
-    """Problem from one state to another with least propellant and free attitude.
+    """Problem to reach one state from another with least propellant and free attitude.
 
     Positions (m) and velocities (m/s) are along and up, or along three axes of which the last is up. ``exhaust_speed``
     is in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2. ``length`` (m) and
-    ``speed`` (m/s) are the scales of the solution. ``largest_tilt`` (rad) limits the angle of thrust from up;
-    ``glide_slope`` (rad) is the least elevation of the path, measured from an apex ``glide_offset`` (m) below the end;
-    None: no such limit.
+    ``speed`` (m/s) are the scales of the solution. ``largest_tilt`` (rad) limits the angle between thrust and up;
+    ``glide_slope`` (rad) is the least elevation of the path, measured from an apex ``glide_offset`` (m) below the end.
+    Either limit is None if it does not apply.
     """
 
     start_position: tuple[float, ...]
@@ -83,14 +83,14 @@ class PointMassProblem:
 
     @property
     def natural_time(self) -> float:
-        """Time (s) of the order of the optimal one: at mean speed, or at full thrust from rest."""
+        """Time (s) of the order of the optimal duration: at mean speed, or at full thrust from rest."""
         way = math.dist(self.end_position, self.start_position)
         speeds = math.hypot(*self.start_velocity) + math.hypot(*self.end_velocity)
         return min(2.0 * way / speeds if speeds > 0.0 else np.inf, 2.0 * (2.0 * way / self.most) ** 0.5)
 
 
 def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
-    """Return the problem of a hover transfer with free attitude, also at its ends."""
+    """Return the problem of a hover transfer with free attitude, including at its ends."""
     return PointMassProblem(
         start_position=(0.0, 0.0),
         start_velocity=(0.0, 0.0),
@@ -106,7 +106,7 @@ def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
 
 
 def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:
-    """Return the problem of braking and landing in the site's frame: along, from the site to the start, and up."""
+    """Return the problem of braking and landing in the site's frame: axes from site to start, and up."""
     angle = landing.range / landing.radius
     distance = landing.radius + landing.altitude
     course = angle + landing.climb

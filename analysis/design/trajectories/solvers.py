@@ -1,4 +1,4 @@
-"""Solvers of the optional extra `plan`, imported where they are needed; everything else works without them."""
+"""Imports of the solvers of the optional extra `plan`, on demand: everything else works without them."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Bound of a system's landing, computed once and stored in its folder with the hash of its inputs.
 
-Independent of solvers: a page can show it, or report that it is missing, without any installed.
+This module needs no solvers: a page can show a bound, or report that it is missing, without them.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "i
 
 @dataclass(frozen=True)
 class StoredBound:
-    """Bound of a landing, with its inputs.
+    """Stored bound on the propellant of a landing, with its inputs.
 
-    ``propellant`` (kg) and ``duration`` (s) are those of a single-burn braking and landing, ``burns`` those at full
-    thrust (begin and end, s), on a number of ``intervals``; ``pieces`` are the propellant (kg) of the phases into which
-    the SSD divides it, by name; ``inputs`` are in SI, with their hash.
+    ``propellant`` (kg) and ``duration`` (s) refer to a single-burn braking and landing, computed on a number of
+    ``intervals``; ``burns`` contains begin and end (s) of each burn at full thrust. ``pieces`` contains the propellant
+    (kg) of each phase into which the SSD divides the landing, by name. ``inputs`` are in SI units, with their hash.
     """
 
     propellant: float
@@ -47,12 +47,12 @@ class MissingBound:
 
 
 def digest(inputs: Inputs) -> str:
-    """Return the SHA-256 of the inputs by name, with every bit of their numbers."""
+    """Return the SHA-256 hash of the inputs by name, which depends on every bit of their numbers."""
     return hashlib.sha256(json.dumps(_plain(inputs), sort_keys=True).encode()).hexdigest()
 
 
 def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
-    """Return the bound stored in a prepared system's folder for its values, None if its SSD declares no bound.
+    """Return the bound stored for the values of a prepared system, None if its SSD declares no bound.
 
     Raises InputError for an invalid file.
     """
@@ -100,7 +100,7 @@ def read_bound(content: bytes, file: str) -> StoredBound:
 
 
 def write_bound(bound: StoredBound, folder: Path) -> Path:
-    """Write the bound to its place in a system's folder, and return the path."""
+    """Write the bound into a system's folder, and return the path."""
     path = folder / PLACE
     document = asdict(bound) | {"inputs": _plain(bound.inputs)}
     write_atomically(path, (json.dumps(document, indent=1, allow_nan=False) + "\n").encode())

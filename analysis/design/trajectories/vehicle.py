@@ -1,4 +1,4 @@
-"""Lander of a plan, and the control margins that a plan leaves it."""
+"""Lander of a plan, and the share of its capability that the plan may use."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
 class Vehicle:
     """Lander: initial ``mass`` and ``dry_mass`` (kg), ``specific_impulse`` (s), thrust limits (N).
 
-    ``angular_acceleration`` (rad/s2) is the largest one.
+    ``angular_acceleration`` (rad/s2) is the largest angular acceleration.
     """
 
     mass: float
@@ -43,7 +43,8 @@ class Vehicle:
 class Margins:
     """Shares of a vehicle's capability that a plan uses; the rest is left to feedback.
 
-    They are the least and largest throttle as fractions of its maximum thrust, and the angular acceleration (rad/s2).
+    They are the least and largest throttle, as fractions of maximum thrust, and the largest angular acceleration
+    (rad/s2).
     """
 
     maximum_throttle: float
@@ -61,7 +62,7 @@ class Margins:
 
 
 def limits_document(limits: Vehicle | Margins) -> dict[str, float]:
-    """Return a vehicle or margins as JSON: kg, s, N, and deg/s2 if that is limited."""
+    """Return a vehicle or margins as JSON, in kg, s, N and deg/s2; an unlimited angular acceleration is omitted."""
     values = asdict(limits)
     turn = math.degrees(values.pop("angular_acceleration"))
     return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
@@ -113,9 +114,9 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
 class Landing:
     """Single-burn braking and landing: from orbit to rest over the site, around a Moon that does not rotate.
 
-    Start, in the plane of flight: ``range`` (m) from the site along the ground, ``altitude`` (m), ``speed`` (m/s) at an
-    angle ``climb`` (rad) above the local horizontal, towards the site. End: ``target_altitude`` (m) above the site.
-    ``radius`` (m) and ``gravitational_parameter`` (m3/s2) are the Moon's.
+    The start is in the plane of flight at a ``range`` (m) from the site along the ground and an ``altitude`` (m), with
+    a ``speed`` (m/s) towards the site at an angle ``climb`` (rad) above the local horizontal. The end is
+    ``target_altitude`` (m) above the site. ``radius`` (m) and ``gravitational_parameter`` (m3/s2) are the Moon's.
     """
 
     range: float

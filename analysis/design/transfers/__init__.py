@@ -1,1 +1,1 @@
-"""Transfers between two hovers: simplified programme and alternatives, true optimum and its adjoint system."""
+"""Transfers between two hover points: simplified programme, alternatives, true optimum and its adjoint system."""

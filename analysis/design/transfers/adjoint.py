@@ -1,9 +1,9 @@
 """Adjoint system of a hover transfer, integrated along its optimum, and the residuals of its optimality conditions.
 
-H = H_p pt + psi7 alpha - psi4 g + psi1 x' + psi3 y' + psi6 omega is least along an optimum, with the switching function
-H_p = (psi2 cos th + psi4 sin th) A0/(1 - mu) + psi5 and mu the propellant over the initial mass. Costates are numbered
-as in the paper, the fifth being for the time at full thrust, c mu/A0. Source: Huang 2017, Hamiltonian, adjoint system,
-equations (2) and (3); their final values are those of the direct method's multipliers.
+An optimal control minimises H = H_p pt + psi7 alpha - psi4 g + psi1 x' + psi3 y' + psi6 omega, with the switching
+function H_p = (psi2 cos th + psi4 sin th) A0/(1 - mu) + psi5 and mu the propellant over the initial mass. Costates are
+numbered as in the paper; the fifth belongs to the time at full thrust, c mu/A0. Source: Huang 2017, Hamiltonian,
+adjoint system, equations (2) and (3). The final values of the costates are multipliers of the direct method.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ IN_ORDER = [0, 1, 2, 3, 6, 4, 5]  # the optimum's states in the paper's order
 
 @dataclass(frozen=True)
 class AdjointSolution:
-    """Costates along an optimum of N intervals, and the functions of them that determine its controls.
+    """Costates along an optimum of N intervals, and the functions of the costates that determine its controls.
 
-    Arrays with N rows, one for each interval, and its nodes as columns: ``time`` (s); ``costates`` psi1 (1/m), psi2
-    (s/m), psi3 (1/m), psi4 (s/m), psi5 (1/s), psi6 (s), psi7 (s2) along the last axis; ``pitch`` (rad); ``switching``,
-    H_p (1/s); ``hamiltonian`` (1/s). For each interval: ``throttle``, 0 at its least and 1 at its largest, and
-    ``turning``, the angular acceleration over its largest. ``mismatch`` is the largest difference to the direct
-    method's multipliers before the end, relative to the largest value of each costate.
+    Arrays with a row for each of the N intervals and a column for each node of an interval: ``time`` (s); ``costates``
+    psi1 (1/m), psi2 (s/m), psi3 (1/m), psi4 (s/m), psi5 (1/s), psi6 (s), psi7 (s2) along the last axis; ``pitch``
+    (rad); ``switching``, H_p (1/s); ``hamiltonian`` (1/s). Arrays with an element for each interval: ``throttle``, 0 at
+    its least and 1 at its largest, and ``turning``, the angular acceleration as a fraction of its limit. ``mismatch``
+    is the largest difference from the multipliers of the direct method before the end, relative to the largest value of
+    each costate.
     """
 
     time: np.ndarray
@@ -46,12 +47,12 @@ class AdjointSolution:
 
     @property
     def tangent(self) -> np.ndarray:
-        """Pitch (rad) by the tangent law (2), in the same rows."""
+        """Pitch (rad) according to the tangent law (2), at the same nodes."""
         return np.arctan2(-self.costates[:, :, 3], -self.costates[:, :, 1])
 
     @property
     def singular_arc(self) -> slice:
-        """Longest run of intervals with an angular acceleration below half its largest: the arc of law (2)."""
+        """Longest run of intervals with an angular acceleration below half its limit, where law (2) should hold."""
         low = np.concatenate([[False], np.abs(self.turning) < 0.5, [False]])
         edges = np.flatnonzero(low[1:] != low[:-1]).reshape(-1, 2)
         first, after = max(edges.tolist(), key=lambda edge: edge[1] - edge[0], default=(0, 0))
@@ -59,13 +60,13 @@ class AdjointSolution:
 
     @property
     def singular_span(self) -> tuple[float, float]:
-        """Begin and end (s) of the arc; nan if there is none."""
+        """Begin and end (s) of the singular arc; nan if there is none."""
         time = self.time[self.singular_arc]
         return (float(time[0, 0]), float(time[-1, -1])) if time.size else (math.nan, math.nan)
 
     @property
     def tangent_residual(self) -> tuple[float, float]:
-        """Deviation of pitch from the tangent law (rad) on the arc: rms and largest; nan if there is no arc."""
+        """Deviation (rad) of pitch from the tangent law on the arc, rms and largest; nan if there is no arc."""
         difference = (self.pitch - self.tangent)[self.singular_arc]
         residual = np.abs(np.arctan2(np.sin(difference), np.cos(difference)))
         return (float(np.sqrt(np.mean(residual**2))), float(residual.max())) if residual.size else (math.nan, math.nan)
@@ -77,17 +78,17 @@ class AdjointSolution:
 
     @property
     def switching_residual(self) -> float:
-        """Largest interval mean of H_p with a sign that its throttle forbids, over the largest H_p."""
+        """Largest interval mean of H_p with a sign that the throttle forbids, over the largest magnitude of H_p."""
         return _largest_forbidden(self.switching, 2.0 * self.throttle - 1.0)
 
     @property
     def turning_residual(self) -> float:
-        """Largest interval mean of psi7 with a sign that the angular acceleration forbids, over the largest psi7."""
+        """Largest interval mean of psi7 with a sign that the turning forbids, over the largest magnitude of psi7."""
         return _largest_forbidden(self.costates[:, :, 6], self.turning)
 
     @property
     def hamiltonian_residual(self) -> float:
-        """Largest H, which should be 0 in free time, over the largest H_p."""
+        """Largest magnitude of H, which should be 0 in free time, over the largest magnitude of H_p."""
         return float(np.abs(self.hamiltonian).max() / np.abs(self.switching).max())
 
     @property
@@ -99,7 +100,7 @@ class AdjointSolution:
         return first, last
 
     def document(self) -> dict[str, object]:
-        """Return the solution as JSON, at the beginnings of the intervals and at the end; s, deg, SI."""
+        """Return the solution as JSON, at the interval starts and at the end; angles in deg, otherwise SI units."""
         has_arc = self.time[self.singular_arc].size > 0
         rms, largest = (math.degrees(angle) for angle in self.tangent_residual)
         first, last = self.reversals
@@ -123,8 +124,9 @@ class AdjointSolution:
 def integrate_adjoint(optimum: OptimalPath, vehicle: Vehicle, transfer: Transfer, engine: float) -> AdjointSolution:
     """Integrate the adjoint system from the end of an optimum to its start.
 
-    ``vehicle`` is the one that the plan used, ``engine`` the thrust (N) that counts as full throttle. Over an interval
-    pitch is quadratic and propellant linear in time, so psi1 to psi4 are linear and the others quadratures.
+    ``vehicle`` is the vehicle of the plan, ``engine`` the thrust (N) at full throttle. Over an interval pitch is a
+    quadratic and propellant a linear function of time; psi1 to psi4 are linear, and the other costates are integrated
+    by quadrature.
     """
     speed, full = vehicle.exhaust_speed, vehicle.full
     span = float(optimum.time[1] - optimum.time[0])
@@ -168,34 +170,34 @@ def integrate_adjoint(optimum: OptimalPath, vehicle: Vehicle, transfer: Transfer
 
 
 def zeros_of(time: np.ndarray, values: np.ndarray) -> list[float]:
-    """Return the times at which values cross 0, with linear interpolation between neighbours, row by row."""
+    """Return the times at which values cross 0, row by row, with linear interpolation between neighbours."""
     t, v = time.ravel(), values.ravel()
     at = np.flatnonzero((v[1:] > 0.0) != (v[:-1] > 0.0))
     return [float(t[k] - v[k] * (t[k + 1] - t[k]) / (v[k + 1] - v[k])) for k in at]
 
 
 def _integrate_back(end: float, derivative: np.ndarray, span: float) -> np.ndarray:
-    """Return a function at all nodes from its derivative there and its value at the end of the last interval."""
+    """Return a function at all nodes from its derivative at the nodes and its value at the end of the last interval."""
     to_end = span * derivative @ INTEGRALS.T  # of its interval, from each node on
     later = np.cumsum(to_end[::-1, 0])[::-1] - to_end[:, 0]
     return end - later[:, np.newaxis] - to_end
 
 
 def _integrate(ends: np.ndarray, derivative: np.ndarray, span: float) -> np.ndarray:
-    """Return a function at all nodes from its derivative there and its values at the ends of all intervals."""
+    """Return a function at all nodes from its derivative at the nodes and its values at the ends of all intervals."""
     return ends[1:, np.newaxis] - span * derivative @ INTEGRALS.T
 
 
 def _interval_ends(rows: np.ndarray) -> np.ndarray:
-    """Return the first node of each interval and the last of all."""
+    """Return the values at the first node of each interval and at the last node of the last interval."""
     return np.concatenate([rows[:, 0], rows[-1:, -1]])
 
 
 def _largest_forbidden(function: np.ndarray, control: np.ndarray) -> float:
-    """Return the largest interval mean of a function that its control, -1 to 1, forbids, over the largest of all.
+    """Return the largest interval mean of a switching function that its control, from -1 to 1, forbids, as a fraction.
 
-    A control within 1 % of a limit counts as at the limit, where the mean must have the opposite sign. Elsewhere the
-    mean must be 0.
+    The denominator is the largest magnitude of the function. A control within 1 % of a limit counts as at the limit,
+    where the mean must have the opposite sign; elsewhere the mean must be 0.
     """
     mean = function @ INTEGRALS[0]
     at_limit = np.abs(control) > 1.0 - FREE

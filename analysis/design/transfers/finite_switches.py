@@ -1,9 +1,10 @@
-"""Best profile whose angular acceleration switches a finite number of times: equation (3) as in the paper.
+"""Best profile with a finite number of switches of angular acceleration: equation (3) as in the paper.
 
-Pitch accelerates at its limit, -, +, follows the tangent law (2) from t3 to t4, then accelerates at its limit, -, +;
-thrust is full in two burns. The constants c1 to c4 of the law count as three: along it pitch is direction + atan((t -
-nearest)/scale), the angle from a point to one that moves on a straight line. Source: Huang 2017, equation (3) and the
-programme of pitch that follows it, before its simplification.
+The angular acceleration is at its negative and then at its positive limit, pitch follows the tangent law (2) from t3 to
+t4, and the angular acceleration is again at its negative and then at its positive limit; thrust is full in two burns.
+The constants c1 to c4 of the law are equivalent to three: pitch is direction + atan((t - nearest)/scale), the direction
+from a fixed point to a point that moves along a straight line. Source: Huang 2017, equation (3) and the programme of
+pitch that follows it, before its simplification.
 """
 
 from __future__ import annotations
@@ -28,9 +29,10 @@ HALF = math.pi / 2.0
 
 @dataclass(frozen=True)
 class FiniteProfile:
-    """Profile: ``times`` t2, t3, t4, t5 and t7 (s); ``tangent``: direction (rad), nearest and scale (s) of the law.
+    """Profile: switching ``times`` t2, t3, t4, t5, t7 (s); ``tangent``: direction (rad), nearest and scale (s).
 
-    ``burns``: begin and duration of the first and duration of the last (s); ``propellant_fraction`` of all.
+    ``burns`` contains begin and duration of the first burn and duration of the last (s); ``propellant_fraction`` is the
+    total.
     """
 
     times: tuple[float, ...]
@@ -83,7 +85,7 @@ def find_finite_switches(near: Programme) -> FiniteProfile | None:
 
 
 def pitch_of_profile(z: np.ndarray, swing: float, t: np.ndarray) -> np.ndarray:
-    """Return pitch (rad) at times (s); ``z``: t2, t3, t4, t5, t7, then the tangent law; ``swing`` in rad/s2."""
+    """Return pitch (rad) at times (s); ``z``: t2, t3, t4, t5, t7 and the tangent law; ``swing`` in rad/s2."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     t1, last = t2 / 2.0, (t7 - t5) / 2.0
     curves = [
@@ -96,7 +98,7 @@ def pitch_of_profile(z: np.ndarray, swing: float, t: np.ndarray) -> np.ndarray:
 
 
 def end_of_profile(z: np.ndarray, vehicle: Vehicle, gravity: float) -> np.ndarray:
-    """Return x, x', y, y' (m, m/s) at the end, by Gauss-Legendre quadrature between all switches."""
+    """Return x, x', y, y' (m, m/s) at the end, by Gauss-Legendre quadrature between the switches."""
     t2, t3, t4, t5, t7 = z[:5]
     begin, end, last = z[8], z[8] + z[9], z[10]
     switches = np.sort(np.clip([0.0, t2 / 2.0, t3, t4, (t5 + t7) / 2.0, begin, end, t7 - last, t7], 0.0, t7))
@@ -124,7 +126,7 @@ def _propellant(z: np.ndarray, vehicle: Vehicle) -> float:
 
 
 def _find_discontinuities(z: np.ndarray, swing: float) -> np.ndarray:
-    """Return the discontinuities of pitch and of its rate where the tangent law begins and ends."""
+    """Return the jumps of pitch and of its rate where the tangent law begins and ends."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     before = swing * ((t3 - t2) ** 2 / 2.0 - t2**2 / 4.0), swing * (t3 - t2)
     after = swing * ((t7 - t5) ** 2 / 4.0 - (t5 - t4) ** 2 / 2.0), swing * (t5 - t4)

@@ -1,9 +1,9 @@
-"""Alternative way of becoming vertical: at rest before, the lander turns in free fall and brakes once more.
+"""Alternative final phase of a transfer: the lander turns to the vertical in free fall and brakes once more.
 
-Pitch is that of the simplified programme, whose last turn from t5 to t7 takes place with the engine off: the braking
-burn ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust stops the fall. Or the braking burn
-ends later, when the turn has begun. Source of the two ways: Huang 2017, after Likhachev, Sikharulidze and Fedotov 2013;
-the programme is ours.
+Pitch follows the simplified programme, but the last turn from t5 to t7 takes place with the engine off: the braking
+burn ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust stops the fall. Alternatively the
+braking burn ends later, after the turn has begun. Source of both variants: Huang 2017, after Likhachev, Sikharulidze
+and Fedotov 2013; the programme is ours.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ NO_SHAPE = 1e3  # value of the conditions if the times have no shape
 
 @dataclass(frozen=True)
 class FreeFallProgramme:
-    """Programme with a free fall; ``times`` are t2, t5, w and t7 (s) of the simplified programme, and tp.
+    """Programme with a free fall; ``times`` are t2, t5, w and t7 (s) as in the simplified programme, and tp.
 
-    tp is the duration of the braking burn. ``fall`` (s) is the time with the engine off, until t7; ``last_burn`` (s)
-    follows it. ``drop`` (m) is the height lost in both; ``propellant_fraction`` is the total. ``full_thrust`` has begin
-    and end (s) of each burn.
+    The time tp is the duration of the braking burn. ``fall`` (s) is the time with the engine off, until t7, and
+    ``last_burn`` (s) the duration of the burn that follows. ``drop`` (m) is the height lost during both;
+    ``propellant_fraction`` is the total. ``full_thrust`` contains begin and end (s) of each burn.
     """
 
     times: HoverProgramme
@@ -51,7 +51,7 @@ class FreeFallProgramme:
 
 
 def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | None:
-    """Return the programme of least propellant for the vehicle and transfer of a simplified one, or None.
+    """Return the programme of least propellant for the vehicle and transfer of a simplified programme, or None.
 
     ``begun``: fraction of the turn's duration, t7 - t5, that has passed when the braking burn ends.
     """
@@ -78,9 +78,7 @@ def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | N
 def _fly(
     z: np.ndarray, begun: float, vehicle: Vehicle, transfer: Transfer
 ) -> tuple[FreeFallProgramme, np.ndarray] | None:
-    """Return the programme with t2, t5, w, tp and t7 - t5 (s), or None if there is no shape, and its errors at the
-    end.
-    """
+    """Return the programme with t2, t5, w, tp and t7 - t5 (s), None if these are infeasible, and its final errors."""
     t2, t5, width, burn, turn = (float(each) for each in z)
     kernel = kernel_vehicle(vehicle, transfer)
     off, fall = t5 + begun * turn, (1.0 - begun) * turn
@@ -110,11 +108,11 @@ def _fly(
 
 
 def stop_falling(vehicle: Vehicle, gravity: float, spent: float, fall: float) -> tuple[float, float] | None:
-    """Return the duration (s) of the full-thrust burn that ends a fall from rest, and the height (m) lost in both.
+    """Return the duration (s) of the full-thrust burn that stops a fall from rest, and the height (m) lost in total.
 
-    ``fall`` (s) is the duration of the fall, ``spent`` the propellant fraction before. With the mass ratio q = 1 - b t
-    and b the flow over the remaining mass, c ln(1/q) - g t is the speed that the burn removes. None if the thrust is
-    too small.
+    ``fall`` (s) is the duration of the fall, ``spent`` the propellant fraction before. With the mass ratio q = 1 - b t,
+    where b is the mass flow over the remaining mass, the burn removes the speed c ln(1/q) - g t. The result is None if
+    the thrust is too small.
     """
     speed, flow = vehicle.exhaust_speed, vehicle.full / vehicle.exhaust_speed / (1.0 - spent)
 

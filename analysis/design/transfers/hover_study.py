@@ -29,7 +29,7 @@ VERTICAL = PlanKind.meanings[PlanKind.VERTICAL]
 
 @dataclass(frozen=True)
 class PropellantCurve:
-    """Propellant fraction over one quantity, nan where there is no programme."""
+    """Propellant fraction as a function of one quantity, nan where there is no programme."""
 
     at: np.ndarray
     propellant: np.ndarray
@@ -37,7 +37,7 @@ class PropellantCurve:
 
 @dataclass(frozen=True)
 class ProgrammeComparison:
-    """Least propellant fractions of both programmes over a ``distance`` (m); nan where there is none."""
+    """Least propellant fractions of both programmes for one ``distance`` (m); nan if there is no programme."""
 
     distance: float
     programme: float
@@ -48,11 +48,11 @@ class ProgrammeComparison:
 class HoverStudy:
     """Planned hover transfer.
 
-    ``vehicle`` is the lander itself, for which the bound is; programme and optimum respect the ``margins``, if any.
-    ``vertical`` is the programme straight down from the same height. ``durations``: the programmes of other t7 (s);
-    ``distances``: the best programmes over other distances (m). ``adjoint`` is integrated along the optimum; ``finite``
-    is the profile with a finite number of switches, ``free_fall`` the programme that becomes vertical in free fall;
-    ``comparisons`` are between it and the simplified programme over several distances.
+    ``vehicle`` is the lander without margins, which the bound assumes; programme and optimum respect the ``margins``,
+    if any. ``vertical`` is the programme straight down from the same height. ``durations`` are the programmes for other
+    t7 (s), ``distances`` the best programmes for other distances (m). ``adjoint`` is integrated along the optimum;
+    ``finite`` is the profile with a finite number of switches; ``free_fall`` is the programme that turns to the
+    vertical in free fall, and ``comparisons`` compares it with the simplified programme for several distances.
     """
 
     vehicle: Vehicle
@@ -104,11 +104,12 @@ def hover_study(
     distances: Sequence[float] = (),
     intervals: int | None = None,
 ) -> HoverStudy:
-    """Plan a transfer; ``duration`` (s) is the programme's t7, by default the best.
+    """Plan a transfer; ``duration`` (s) is t7 of the programme, by default the one of least propellant.
 
-    ``optimum``, ``bound`` and ``curves`` request further results, the first two on a number of ``intervals`` and with
-    solvers that must be installed; ``adjoint`` is for the optimum; ``turn_begun``, a fraction of the turn, and
-    ``distances`` (m) are for the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
+    ``optimum``, ``bound``, ``curves``, ``adjoint`` and ``free_fall`` request further results. Optimum and bound are
+    computed on a number of ``intervals`` with solvers that must be installed; ``adjoint`` requires the optimum.
+    ``turn_begun`` (a fraction of the turn) and ``distances`` (m) apply to ``free_fall``. Raises `PlanError`, and
+    InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)
     programme = find_programme(planned, transfer, duration)

@@ -1,4 +1,4 @@
-"""Small smooth problems with equality constraints: a function of a few times, minimised by SQP.
+"""Minimisation of smooth functions of a few variables under equality constraints, by SQP.
 
 Source: Kraft 1988, SLSQP, in scipy.
 """
@@ -21,9 +21,9 @@ Conditions = Callable[[np.ndarray], np.ndarray]
 def minimise(
     cost: Function, conditions: Conditions, guess: Sequence[float], lowest: Sequence[float]
 ) -> np.ndarray | None:
-    """Return the point near a guess with least ``cost`` at which all ``conditions`` are 0, None if none is found.
+    """Return the point near a guess that minimises ``cost`` where all ``conditions`` are 0, None if none is found.
 
-    ``cost`` and ``conditions`` are of the order of 1 to 100; ``lowest`` are lower bounds (-inf: none).
+    ``cost`` and ``conditions`` are of the order of 1 to 100; ``lowest`` contains lower bounds, -inf for none.
     """
     solution = minimize(
         cost,

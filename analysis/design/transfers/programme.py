@@ -1,4 +1,4 @@
-"""Simplified programme of a hover transfer, found by the kernels of the FMUs, with its path and parameter sweeps."""
+"""Simplified programme of a hover transfer, computed by the kernels of the FMUs, with its path and parameter sweeps."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DISTANCES = (1.6, 25)  # relative to the requested one: to, count
 
 @dataclass(frozen=True)
 class Programme:
-    """Programme with the vehicle's capability that the plan may use."""
+    """Programme of a transfer, with the vehicle's capability that the plan may use."""
 
     vehicle: Vehicle
     transfer: Transfer
@@ -46,7 +46,7 @@ class Programme:
 
     @property
     def threshold(self) -> float | None:
-        """The paper's k: the first burn is where thrust is turned beyond k of its largest turn; None for vertical."""
+        """Paper's k: the first burn lasts while thrust is turned over k times its largest turn; None for vertical."""
         first = 0.5 * self.programme.t2
         return 1.0 - self.programme.width**2 / (2.0 * first**2) if first > 0.0 else None
 
@@ -72,7 +72,7 @@ class Programme:
         return hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration).shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return rows of x, x', y, y' (m, m/s) at times (s), and of pitch, its rate (rad, rad/s) and propellant."""
+        """Return rows of x, x', y, y' (m, m/s) and rows of pitch, its rate (rad, rad/s) and propellant at times."""
         shape, vehicle = self.shape(), kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
@@ -89,7 +89,7 @@ class Programme:
         return np.where(full, self.vehicle.maximum_thrust, self.vehicle.minimum_thrust)
 
     def path(self, engine: float) -> PlannedPath:
-        """Return the path, with every switch among its times; ``engine`` is the thrust (N) of full throttle."""
+        """Return the path, with all switches among its times; ``engine`` is the thrust (N) at full throttle."""
         even = np.linspace(0.0, self.duration, max(2, math.ceil(self.duration / STEP)) + 1)
         switches = [time for burn in self.burns for time in burn]
         time = np.unique(np.clip([*even, *switches], 0.0, self.duration))
@@ -106,7 +106,7 @@ class Programme:
 
 
 def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
-    """Return the programme of least propellant, or with a ``duration`` (s), or None."""
+    """Return the programme of least propellant, optionally with a ``duration`` (s), or None if there is none."""
     kernel = kernel_vehicle(vehicle, transfer)
     if duration is None:
         planned = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
@@ -119,7 +119,7 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
 
 
 def sweep_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Return durations (s) around the best programme's and the propellant fraction of each, nan if there is none."""
+    """Return durations (s) around the best and their propellant fractions, nan where there is no programme."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
     programmes = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]
@@ -127,7 +127,7 @@ def sweep_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sweep_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Return distances (m) from straight down to beyond the programme's, and the least propellant fraction of each."""
+    """Return distances (m) from 0 to beyond the programme's distance, and the least propellant fraction of each."""
     farthest, count = DISTANCES
     wide = farthest * max(best.transfer.distance, 0.2 * best.transfer.descent)
     distances = np.unique([*np.linspace(0.0, wide, count), best.transfer.distance])

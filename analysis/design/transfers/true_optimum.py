@@ -1,4 +1,4 @@
-"""Optimal hover transfer without the simplified programme's form: free throttle and angular acceleration in limits.
+"""Optimal hover transfer with free throttle and angular acceleration within limits, not of the simplified form.
 
 Direct multiple shooting, started from the simplified programme. The tangent law is a singular arc of second order in
 the angular acceleration, which is therefore bang-bang at the ends of the arcs, in a way that depends on the grid.
@@ -24,9 +24,10 @@ SPENT = 0.05  # the scale of the propellant over the initial mass
 class OptimalPath(PlannedPath):
     """Optimum with the data that its adjoint system needs.
 
-    At the N + 1 times ``attitude``: rows of pitch (rad) and its rate (rad/s); over the N intervals ``acceleration`` of
-    pitch (rad/s2). ``costates``, a row for each time but the first: derivatives of the propellant fraction with respect
-    to x, x', y, y', pitch, its rate and propellant fraction there (SI).
+    ``attitude`` contains rows of pitch (rad) and its rate (rad/s) at the N + 1 times, ``acceleration`` the acceleration
+    of pitch (rad/s2) over the N intervals. ``costates`` contains a row for each time but the first: derivatives of the
+    final propellant fraction with respect to x, x', y, y', pitch, its rate and the propellant fraction at that time, in
+    SI units.
     """
 
     attitude: np.ndarray
@@ -37,7 +38,7 @@ class OptimalPath(PlannedPath):
 def find_true_optimum(programme: Programme, intervals: int, engine: float) -> OptimalPath:
     """Return the optimum for the programme's vehicle, on a number of equal intervals. Raises `PlanError`.
 
-    ``engine`` is the thrust (N) that counts as full throttle. Source of the problem: Huang 2017.
+    ``engine`` is the thrust (N) at full throttle. Source of the problem: Huang 2017.
     """
     vehicle, transfer, ca = programme.vehicle, programme.transfer, casadi()
     length = max(transfer.distance, transfer.descent) / 2.0
@@ -81,7 +82,7 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Op
 
 
 def _guess(programme: Programme, intervals: int, scale: np.ndarray) -> Shooting:
-    """Return the programme at equally spaced times."""
+    """Return the simplified programme at equally spaced times, as a guess."""
     time = np.linspace(0.0, programme.duration, intervals + 1)
     motion, remainder = programme.states(time)
     throttle = programme.thrust((time[1:] + time[:-1]) / 2.0) / programme.vehicle.maximum_thrust
