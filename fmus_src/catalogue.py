@@ -73,10 +73,13 @@ def block_kinds() -> dict[str, str]:
 def blocks_in_file(path: Path) -> list[type[Block]]:
     """Return the blocks defined in a Python file outside the repository.
 
-    Raises ValueError, with the file's name, if it defines no block or cannot be imported.
+    Raises ValueError, with the file's name, if it is a file of the repository, defines no block or cannot be imported.
     """
     if not path.is_file():
         raise ValueError(f"{path}: not a Python file; give the .py file that defines the blocks")
+    if path.resolve().is_relative_to(HERE.resolve()):
+        remedy = "build_fmus.py builds its blocks, perilune export NAME exports one of them"
+        raise ValueError(f"{path}: a file of Perilune itself; {remedy}")
     _check_names(path)
     try:
         module = import_file(path)

@@ -79,7 +79,8 @@ def report_changed_source(system: str | Path) -> list[str]:
     if hashlib.sha256(raw).hexdigest().encode() == match["source"]:
         return []
     path = os.path.relpath(file) if file.is_relative_to(Path.cwd()) else str(file)
-    return [f"{path}: has changed since {archive.description} was composed from it; perilune compose {path}"]
+    problem = f"this file or its annotations have changed since {archive.description} was composed from it"
+    return [f"{path}: {problem}; perilune compose {path}"]
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:

@@ -18,6 +18,7 @@ from ..campaigns.definition.file import SYNTHESIS, read_campaign
 from ..campaigns.definition.home import find_system
 from ..campaigns.definition.plan import read_plan
 from ..campaigns.definition.source import read_source
+from ..compose.files import report_changed_source
 from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
@@ -164,7 +165,7 @@ def _check_short_file(path: Path) -> list[str]:
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
     """Check one variant of a system, or all; return notes. Raises InputError."""
-    notes: list[str] = []
+    notes = report_changed_source(path)
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
     for variant in (options.chosen["variant"], *others):
         subject = Subject(path, options.replace(variant=variant))

@@ -104,11 +104,13 @@ def test_in_another_folder_are_the_sets_that_its_annotations_name(name, tmp_path
 
 
 def test_what_changed_since_is_reported(copied, monkeypatch, capsys):
-    """One line on standard error, with the command that mends it, for the system.toml and for its annotations."""
+    """One line on standard error, with the command that mends it, for the system.toml and for its annotations; a note
+    of validate."""
     name = "lunar_descent_2d"
     folder = copied(name)
     monkeypatch.chdir(folder.parent)
-    line = f"perilune: {name}/{TOML}: has changed since {SSD} was composed from it; perilune compose {name}/{TOML}\n"
+    problem = f"this file or its annotations have changed since {SSD} was composed from it"
+    line = f"{name}/{TOML}: {problem}; perilune compose {name}/{TOML}\n"
     for file, before, after in ((TOML, 'name = "', '# mine\nname = "'), (NOTES, "</Report>", "<!-- mine --></Report>")):
         assert main(["run", f"./{name}", "--stop-time", "1"]) in (0, 1)
         assert line not in capsys.readouterr().err
@@ -116,7 +118,9 @@ def test_what_changed_since_is_reported(copied, monkeypatch, capsys):
         assert before in text
         (folder / file).write_text(text.replace(before, after), encoding="utf-8")
         assert main(["run", f"./{name}", "--stop-time", "1"]) in (0, 1)
-        assert line in capsys.readouterr().err
+        assert f"perilune: {line}" in capsys.readouterr().err
+        (check,) = perilune.validate(f"./{name}")
+        assert line.strip() in check.notes
         assert main(["compose", f"{name}/{TOML}"]) == 0
 
 

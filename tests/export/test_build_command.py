@@ -6,6 +6,7 @@ Truth: the exit statuses 0 (built), 2 (wrong input); flights of what was built, 
 import pytest
 
 from perilune.analysis.cli import main
+from perilune.common.paths import ROOT
 from tests.support.builders import BLOCKS, component, document, fly, pack, system
 
 GUIDANCE = '''
@@ -117,6 +118,11 @@ def test_a_file_that_is_not_there(tmp_path, monkeypatch, refusal):
     monkeypatch.chdir(tmp_path)
     assert "gone.py: no such file" in refusal(["export", "gone.py"])
     assert not list(tmp_path.iterdir())
+
+
+def test_a_file_of_the_product(refusal):
+    file = ROOT / "fmus_src" / "sensors" / "laser_ranger.py"
+    assert f"{file}: a file of Perilune itself; build_fmus.py builds its blocks" in refusal(["export", str(file)])
 
 
 FILTER = (
