@@ -1,4 +1,4 @@
-"""Interface to the complete memory of a system at a communication point, in this process or another."""
+"""Interface to the complete memory of a system at a communication point, in this process or in a child."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Snapshot = TypeVar("Snapshot")
 
 @dataclass(frozen=True)
 class MemoryCell:
-    """One real number of a system's memory: a variable of an FMU, or the last value exchanged at a connector."""
+    """One real number in a system's memory: a variable of an FMU, or the value last exchanged at a connector."""
 
     name: str
     unit: str | None
@@ -24,15 +24,15 @@ class MemoryCell:
 class BaseMemory(ABC, Generic[Snapshot]):
     """Complete memory of a simulation's FMUs and connectors; ``cells`` are its real numbers.
 
-    Integers, and the variables that FMUs declare frozen (random number generators, covariances), are saved and restored
-    but are not cells.
+    Integers, and variables that FMUs declare frozen (random number generators, covariances), are saved and restored,
+    but they are no cells.
     """
 
     cells: list[MemoryCell]
 
     @abstractmethod
     def read(self) -> np.ndarray:
-        """Return the current values of all cells, in their order."""
+        """Return the current values of all cells, in the order of ``cells``."""
 
     @abstractmethod
     def save(self, point: int) -> Snapshot:
@@ -40,7 +40,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
 
     @abstractmethod
     def restore(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
-        """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
+        """Restore a snapshot; if ``cell`` is passed, set this cell to ``number`` afterwards."""
 
     @abstractmethod
     def release(self, snapshot: Snapshot) -> None:

@@ -1,4 +1,4 @@
-"""Interface of all simulations, in this process or in another: a system that can be simulated repeatedly."""
+"""Interface of all simulations, in this process or in a child: a system that can be simulated repeatedly."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ NOTHING = np.zeros((0, 0))  # no excitation
 class Choices(TypedDict, total=False):
     """Options of a simulation.
 
-    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``requested`` the
-    signals to record (None: all outputs, connected inputs and system connectors); ``additional`` further ones.
-    ``faults`` act unless `set_faults` replaces them. ``excited`` names the connectors to which `advance` may add
-    signals. With ``open_end``, `advance` may pass the stop time, and FMUs receive no stop time. ``log`` receives the
-    FMUs' messages.
+    ``varied`` names the parameters (``component.variable``) that may change between simulations. ``requested`` names
+    the signals to record (None: all outputs, connected inputs and system connectors), and ``additional`` names further
+    signals. ``faults`` act unless `set_faults` replaces them. ``excited`` names the connectors to which `advance` may
+    add signals. With ``open_end``, `advance` may pass the stop time, and FMUs receive no stop time. ``log`` receives
+    the FMUs' messages.
     """
 
     varied: Collection[str]
@@ -43,16 +43,16 @@ class Choices(TypedDict, total=False):
 
 
 class BaseSimulation(ABC):
-    """System that can be simulated repeatedly. A context manager: leaving it frees the instances.
+    """System that can be simulated repeatedly. A context manager, which frees the instances on exit.
 
-    Only `interrupt` and `abort` may be called from another thread. Raises InputError for names that the system does
-    not have.
+    Only `interrupt` and `abort` may be called from another thread. Raises InputError for names that do not exist in the
+    system.
     """
 
     recorder: FlightRecorder
     layout: Layout
     signal_names: list[str]
-    flights = 0  # runs of the current child process, for simulations in one
+    flights = 0  # runs in the current child process, for simulations in child processes
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         self.prepared = prepared
@@ -74,7 +74,7 @@ class BaseSimulation(ABC):
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> FlightResult:
         """Simulate from the start with these ``values`` of varied parameters, and record every ``every``-th row.
 
-        The arrays of the result belong to the simulation and are overwritten by its next run.
+        The arrays of the result belong to the simulation, which overwrites them in its next run.
         """
         flight = self.run(values or {}, every=every)
         return FlightResult(
@@ -84,7 +84,7 @@ class BaseSimulation(ABC):
         )
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
-        """Simulate as `fly` does, and return the flight without units and provenance; for batches."""
+        """Simulate as `fly` does, but return the flight without units and provenance, as batches need it."""
         self.set(values)
         return self.advance(-1, self.prepared.steps, every=every)
 
@@ -94,7 +94,7 @@ class BaseSimulation(ABC):
         return 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:
-        """Simulate at least the first row of a table, and as many of those that follow as fit, each from its start.
+        """Simulate the first row of a table and as many of the following rows as fit, each from the start.
 
         Stops after a simulation that does not complete. Arrays are overwritten as in `fly`.
         """
@@ -106,35 +106,37 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def queue_run(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
-        """Announce the values and faults of a coming `run`, which may let it start earlier; at most two are pending.
+        """Announce the values and faults of a coming `run`, so that it may start earlier; at most two runs are
+        pending.
 
-        The first announcement leaves the arrays of the last flight intact, the second may overwrite them.
+        The arrays of the last flight are unchanged by the first announcement; the second may overwrite them.
         """
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """Set varied parameters for later starts."""
+        """Set varied parameters for all later starts."""
         for name, value in values.items():
             self.layout.parameters[self._varied[name]] = value
 
     @abstractmethod
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
-        """Set values and windows of faults for later starts.
+        """Set values and windows of faults for all later starts.
 
-        ``faults`` has one entry for each fault that the simulation was created with, of the same connector and kind, or
-        None to disable that fault.
+        ``faults`` has an entry for each fault with which the simulation was created: a fault of the same connector and
+        kind, or None to disable it.
         """
 
     @abstractmethod
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """Simulate on from communication point ``first`` to ``last``; return rows ``first`` + 1 to ``last``.
+        """Continue the simulation from communication point ``first`` to ``last``; return rows ``first`` + 1 to
+        ``last``.
 
-        With ``first`` = -1 the simulation restarts, and row 0 is included. ``excitation`` [r, e] is added to the
-        excited connectors at the r communication points after ``first``. ``last`` may lie beyond the stop time if the
+        With ``first`` = -1 the simulation restarts, and row 0 is included. ``excitation`` [r, e] is added to the e
+        excited connectors at the r communication points after ``first``. ``last`` may be beyond the stop time if the
         simulation has an open end. Every ``every``-th row is recorded. Arrays are overwritten as in `fly`.
         """
 
     def interrupt(self, halt: bool = True) -> None:
-        """End the simulation running in another thread, and later ones, at their next communication points.
+        """End the simulation running in another thread, and all later ones, at their next communication points.
 
         ``halt=False`` withdraws the request.
         """
@@ -142,14 +144,16 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def abort(self, why: str) -> bool:
-        """End a simulation in another thread that reaches no communication point; return False if impossible."""
+        """End a simulation in another thread that does not reach a communication point; return False if this is
+        impossible.
+        """
 
     @abstractmethod
     def memory(self) -> BaseMemory[Any]:
-        """Return the memory of the FMUs. Raises InputError if one does not describe its serialised state."""
+        """Return the memory of the FMUs. Raises InputError if an FMU does not describe its serialised state."""
 
     def provenance(self) -> Provenance:
-        """Return what determines the result: parameter values, hashes, options and version."""
+        """Return the inputs that determine the result: parameter values, hashes, options and version."""
         return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults, self.signal_names)
 
     @abstractmethod

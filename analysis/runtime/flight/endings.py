@@ -39,7 +39,7 @@ READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK, code
 
 
 class Outcome(NamedTuple):
-    """Contents of `arrays.Buffers.outcome`: end code, and the component, slot or parameter concerned.
+    """Contents of `arrays.Buffers.outcome`: end code, and the component, slot or parameter that it concerns.
 
     ``function``, ``fmi_status`` and ``instruction`` describe failures only.
     """
@@ -82,7 +82,7 @@ class Outcome(NamedTuple):
         return int(program.instructions[self.instruction, codes.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
-        """Return True if an FMU refused parameters in initialisation mode, after it had accepted them before."""
+        """Return True if an FMU refused parameters in initialisation mode that it had accepted before that mode."""
         if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         row = program.instructions[self.instruction]
@@ -97,14 +97,14 @@ class Outcome(NamedTuple):
 def end_request(instance: Instance) -> float | None:
     """Return the time (s) at which an FMU that discarded a step asks to end the simulation, or None.
 
-    Perilune's FMUs never ask: pythonfmu reports the failed step of a block as such a request.
+    Perilune's FMUs never ask for an end: pythonfmu reports a failed step of a block as such a request.
     """
-    if instance.fmu.is_own or instance.fmu.version == 3:  # version 3 reports it with the step
+    if instance.fmu.is_own or instance.fmu.version == 3:  # FMI 3.0 reports it with the step
         return None
     try:
         if instance.slave.getBooleanStatus(fmi2.fmi2Terminated):
             return float(instance.slave.getRealStatus(fmi2.fmi2LastSuccessfulTime))
-    except Exception:  # FMPy raises bare Exception if the FMU does not answer
+    except Exception:  # FMPy raises bare Exception if the FMU reports no time
         return None
     return None
 
@@ -117,7 +117,7 @@ def describe_outcome(
     fmi3: arrays.Fmi3 | None,
     instances: Mapping[str, Instance],
 ) -> tuple[str, str]:
-    """Return the status and the message of an outcome; ``time`` (s) is that of the last communication point."""
+    """Return status and message of an outcome; ``time`` (s) is the time of the last communication point."""
     code, subject = outcome.code, outcome.subject
     status = STATUS[code]
     if code == codes.NONFINITE:
@@ -167,7 +167,8 @@ def describe_outcome(
 def describe_termination(
     time: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> tuple[str, str]:
-    """Return status and message of a simulation that an FMU ended at ``time`` (s) during its step from begin to end.
+    """Return status and message of a simulation that an FMU ended at ``time`` (s) in its step from ``begin`` to
+    ``end`` (s).
 
     The status is ``failed`` if ``time`` is outside the step.
     """
@@ -183,7 +184,7 @@ def describe_termination(
 def _outside_words(
     said: str, last: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> str:
-    """Return status and message for a lastSuccessfulTime (s) outside the step from begin to end."""
+    """Return the message for a lastSuccessfulTime (s) outside the step from ``begin`` to ``end`` (s)."""
     component, instance = list(instances.items())[subject]
     log = " | ".join(instance.messages) or "no message in its log"
     step = f"its step from {begin:.12g} s to {end:.12g} s"
@@ -191,7 +192,7 @@ def _outside_words(
 
 
 def _limits(name: str, instances: Mapping[str, Instance]) -> str:
-    """Return the name of the limits that a connector's value exceeds."""
+    """Return the limits that a connector's value exceeds, as text."""
     component, variable = split_name(name, instances)
     stored = instances[component].fmu.variables[variable].representation
     return "the 32 bits of an Integer" if stored.name == "Int32" else f"the limits of {stored.name}"

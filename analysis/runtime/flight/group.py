@@ -14,7 +14,7 @@ from .orders.injections import NEVER
 from .parameters import Key, Parameters
 from .results import Flight
 
-RECORD_BYTES = 2**23  # record of a group: dozens of long flights, thousands of short ones
+RECORD_BYTES = 2**23  # size of a group's record: dozens of long flights, or thousands of short flights
 
 
 def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.RunGroup:
@@ -57,7 +57,7 @@ def _positions(names: Sequence[str], keys: Mapping[str, Key], parameters: Parame
 
 @dataclass
 class FlightGroup:
-    """Records of consecutive flights, concatenated: the rows of flight k end before row ``ends[k]``."""
+    """Records of consecutive flights, concatenated; the rows of flight k end before row ``ends[k]``."""
 
     time: np.ndarray
     signals: Mapping[str, np.ndarray]
@@ -68,7 +68,7 @@ class FlightGroup:
 
     @classmethod
     def of(cls, flight: Flight) -> Self:
-        """Return a group that consists of one flight."""
+        """Return a group that consists of a single flight."""
         ends, complete = np.array([flight.time.size]), np.array([flight.complete])
         return cls(flight.time, flight.signals, ends, [flight.status], complete, [flight.message])
 
@@ -78,11 +78,11 @@ class FlightGroup:
         return np.concatenate([[0], self.ends[:-1]])
 
     def last(self, values: np.ndarray) -> np.ndarray:
-        """Return the last entry of each flight in a column of rows; NaN for a flight without rows."""
+        """Return each flight's last entry in a column of rows; NaN for a flight without rows."""
         if not values.size:
             return np.full(self.ends.size, np.nan)
         return np.where(self.ends > self.starts, values[self.ends - 1], np.nan)
 
     def rows(self, flight: int) -> slice:
-        """Return the slice of rows of a flight, by its number in the group."""
+        """Return the slice of the rows of a flight, by the flight's number in the group."""
         return slice(int(self.starts[flight]), int(self.ends[flight]))

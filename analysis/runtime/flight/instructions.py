@@ -1,4 +1,4 @@
-"""Instructions of the loop, written from schedule and layout: what each step does, in order."""
+"""Instructions of the loop, derived from schedule and layout: the operations of each step, in order."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class InstructionList(InstructionRows):
 
     ``orders`` write the calls of each component. ``connections`` [component] lists the terms of the connections to a
     component, in order; its last entry is for system connectors. Connections and ``fault_slots`` are numbered as in the
-    program's arrays. ``drives`` [component] is (first, count) of the inputs driven over time, the last entry for system
-    connectors. ``texts`` and ``binaries`` hold the positions of Strings and Binaries.
+    program's arrays. ``drives`` [component] is (first, count) of the inputs driven over time; its last entry is for
+    system connectors. ``texts`` and ``binaries`` contain the positions of Strings and Binaries.
     """
 
     def __init__(
@@ -44,9 +44,9 @@ class InstructionList(InstructionRows):
         self.drives = drives
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
-        """Write the transfer of values over the connections to a component; group -1: the system connectors.
+        """Write the transfer of values over the connections to a component; group -1 is the system connectors.
 
-        If ``known`` is passed, only connections whose values originate in these components are written.
+        If ``known`` is passed, only connections with values that originate in these components are written.
         """
         group %= len(self.connections)
         run: list[int] = []
@@ -54,7 +54,7 @@ class InstructionList(InstructionRows):
             if known is not None and any(origin not in known for origin in origins):
                 run = []
             elif code in (codes.COPY, codes.COPY_EXACT):
-                # neighbouring slots copied to neighbouring slots are one instruction
+                # copies between adjacent slots are merged into one instruction
                 if run and run[0] == code and (source, target) == (run[1] + run[4], run[3] + run[4]):
                     run[4] += 1
                 else:
@@ -67,9 +67,10 @@ class InstructionList(InstructionRows):
                 self.rows.append(run)
 
     def drive(self, group: int, *, started: bool) -> None:
-        """Write the values of a component's inputs driven over time; group -1 stands for the system connectors.
+        """Write the values of a component's inputs that are driven over time; group -1 is the system connectors.
 
-        Unless ``started``, the values are those of the initialisation, otherwise those of the communication point.
+        The values are those of the communication point if the simulation has ``started``, else those of the
+        initialisation.
         """
         first, count = self.drives[group]
         if count:
@@ -78,8 +79,8 @@ class InstructionList(InstructionRows):
     def set(self, component: int, known: Collection[int] | None = None) -> None:
         """Set the inputs of a component.
 
-        In the initialisation, ``known`` are the components already computed; inputs from others keep their start
-        values.
+        During initialisation, ``known`` contains the components that have been computed; inputs from other components
+        have their start values.
         """
         for code, texts in self.texts:
             for start, source, target in texts.connections[component]:
@@ -92,7 +93,7 @@ class InstructionList(InstructionRows):
         self.orders[component].set(begun, started=known is None)
 
     def write_input_slots(self, component: int) -> None:
-        """Write connected values and faults to the input slots of a component, without a call of its FMU."""
+        """Write connected values and faults to a component's input slots, without calling its FMU."""
         self.orders[component].reset_bases()
         self.connect(component)
         self.orders[component].apply_input_faults()
@@ -102,12 +103,12 @@ class InstructionList(InstructionRows):
         self.orders[component].get()
 
     def read(self, component: int) -> None:
-        """Get the outputs of a component and its other recorded variables; the latter may be non-finite."""
+        """Get the outputs of a component and its other recorded variables, which may be non-finite."""
         self.orders[component].get()
         self.orders[component].read()
 
     def step(self, component: int, period: int = 1) -> None:
-        """Write a step over ``period`` communication steps that ends at the current one."""
+        """Write a component's step over ``period`` communication steps, of which the last is the current one."""
         self.orders[component].step(0 if period == 1 else period)
 
     def reset(self) -> None:
@@ -118,7 +119,7 @@ class InstructionList(InstructionRows):
     def initialise(self, order: Sequence[int]) -> None:
         """Write parameters and initialisation mode, with one exchange of values in the sequence ``order``.
 
-        A component that comes before its sources has declared start values at its inputs; the outputs passed on do not
+        The inputs of a component that precedes its sources have declared start values; the outputs passed on do not
         depend on these inputs.
         """
         for orders in self.orders:
@@ -134,7 +135,7 @@ class InstructionList(InstructionRows):
         for orders in self.orders:
             orders.read_back()
         for component in range(len(self.orders)):
-            self.read(component)  # again: some FMUs compute outputs only when they leave initialisation
+            self.read(component)  # again, because some FMUs compute outputs only when they leave initialisation mode
 
     def step_jacobi(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Step all components with their current inputs, then read all outputs (Jacobi's method)."""
@@ -160,10 +161,10 @@ class InstructionList(InstructionRows):
 def write_instructions(
     instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str, periods: Mapping[str, int]
 ) -> tuple[np.ndarray, int, np.ndarray]:
-    """Return the instructions, and the ends of resetting, of the initialisation and of each repeated section.
+    """Return the instructions, and the ends of the reset, of the initialisation and of each repeated section.
 
-    Step n executes section n modulo their number. There is one section for each communication step up to the least
-    common multiple of ``periods``, which are numbers of communication steps by component (those above 1).
+    Step n executes section n modulo the number of sections. There is one section for each communication step up to the
+    least common multiple of ``periods``, which are numbers of communication steps by component (only those above 1).
     """
     instructions.begin()
     index = {name: position for position, name in enumerate(names)}
@@ -198,8 +199,8 @@ def write_renewal(
 ) -> dict[int, np.ndarray]:
     """Write instructions that update inputs after a system's inputs or faulty parameters changed between two steps.
 
-    Returns them by component, for the components that step in the next section, number ``part``, with inputs from its
-    start. Other arguments as for `write_instructions`.
+    The instructions are returned by component, for the components that step in section ``part`` with inputs from the
+    start of the step. Other arguments are those of `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):
@@ -218,7 +219,9 @@ def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence
 
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
-    """Write the instructions of the last row when an FMU ends the simulation: its outputs, passed to all connectors."""
+    """Write the instructions of the last row when an FMU ends the simulation: its outputs, passed on to all
+    connectors.
+    """
     instructions.begin()
     instructions.read(component)
     for other in range(len(instructions.orders)):

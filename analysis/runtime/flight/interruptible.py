@@ -23,11 +23,11 @@ PATIENCE = 1.5  # s, time for a flight to reach its next communication point
 
 
 class StuckError(TimeoutError):
-    """Step of an FMU that does not return: thread and instances are lost. The message names the time of the step."""
+    """FMU whose step does not return: its thread and instances are lost. The message states the time of the step."""
 
 
 def fly(simulation: BaseSimulation, timeout: float | None = None) -> FlightResult:
-    """Simulate once. Ctrl-C and ``timeout`` (s of wall time) end it at the next communication point.
+    """Simulate once. Ctrl-C and ``timeout`` (s of wall time) end the simulation at its next communication point.
 
     The rows recorded so far are returned with the status ``interrupted`` or ``timed_out``. Raises KeyboardInterrupt or
     StuckError if no communication point is reached within PATIENCE, since the step of an FMU cannot be interrupted.
@@ -37,19 +37,19 @@ def fly(simulation: BaseSimulation, timeout: float | None = None) -> FlightResul
 
 
 def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
-    """Simulate one trial with the same timeout, in a thread that does not receive Ctrl-C."""
+    """Simulate one trial with a timeout as in `fly`, in a thread that does not receive Ctrl-C."""
     return _within(simulation, timeout, partial(simulation.run, values))
 
 
 def make_empty_flight(simulation: BaseSimulation, message: str) -> Flight:
-    """Return a flight without rows, for a simulation whose step did not return and whose rows are lost."""
+    """Return a flight without rows, for a simulation that lost its rows because a step did not return."""
     nothing = np.empty(0)
     types = {name: simulation.layout.types[name] for name in simulation.signal_names}
     return Flight(nothing, dict.fromkeys(types, nothing), types, HUNG, message)
 
 
 def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
-    """Return the flight that ``work`` simulates, interrupted after ``timeout`` seconds of wall time."""
+    """Return the flight simulated by ``work``, which is interrupted after ``timeout`` seconds of wall time."""
     if timeout is None:
         return work()
     future = _start(work)
@@ -65,9 +65,9 @@ def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[]
             where = progress_text(simulation.prepared, simulation.recorder)
             raise StuckError(f"an FMU {late}, {where}") from None
         flight = future.result()
-    simulation.interrupt(False)  # so that the next flight does not end at once
+    simulation.interrupt(False)  # otherwise the next flight would end at once
     if flight.status != "interrupted":
-        return flight  # the last point was reached in the meantime
+        return flight  # it reached its last point in the meantime
     message = f"took longer than its time limit of {timeout:g} s: ended at t = {_point(simulation):g} s"
     return replace(flight, status=TIMED_OUT, message=message)
 
@@ -88,12 +88,12 @@ def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
 def wait(work: Callable[[], T], interrupt: Callable[[], None], abort: Callable[[], object]) -> T:
     """Return the result of ``work``, executed in a thread; on Ctrl-C interrupt it, and give up after PATIENCE.
 
-    Outside the main thread, the only one to receive Ctrl-C, ``work`` is executed directly.
+    Outside the main thread, which alone receives Ctrl-C, ``work`` is executed directly.
     """
     if threading.current_thread() is not threading.main_thread():
         return work()
     future: Future[T] = Future()
-    try:  # Ctrl-C may come as soon as the thread runs, before its start returns
+    try:  # Ctrl-C may occur before `start` returns, while the thread already runs
         _start_into(work, future)
         return future.result()
     except KeyboardInterrupt:

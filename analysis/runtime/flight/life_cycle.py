@@ -17,13 +17,13 @@ from .instructions import InstructionList
 
 
 class LifeCycle:
-    """States of all instances in the state machine of FMI 2.0 co-simulation, and the calls they permit.
+    """States of all instances in the state machine of FMI 2.0 co-simulation, and the calls that they permit.
 
-    After a simulation without errors the loop terminates and resets Perilune's FMUs itself. All others are handled
+    After a simulation without errors the loop terminates and resets Perilune's FMUs itself. All other cases are handled
     here. An FMU is instantiated again if its reset is not trusted, or if it returned an error or discarded a step,
-    since the test of its reset need not have covered that state. Instances are terminated only when the next simulation
-    begins, as this one may still be continued. ``note_subject`` is called with the number of a component before any of
-    its functions is called.
+    since the test of its reset may not have covered that state. Instances are terminated only when the next simulation
+    begins, because the current one may still be continued. ``note_subject`` is called with the number of a component
+    before any of its functions is called.
     """
 
     def __init__(
@@ -41,12 +41,12 @@ class LifeCycle:
         self._note_subject = note_subject
         self.are_self_contained = all(instance.fmu.is_self_contained for instance in instances.values())
         self._fresh = True
-        self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
+        self._running: AbstractSet[str] = set()  # initialised, and can be terminated
         self._broken: set[str] = set()  # returned an error
-        self._discarded: set[str] = set()  # discarded a step, to end the simulation or not
+        self._discarded: set[str] = set()  # discarded a step, whether or not to end the simulation
 
     def note(self, outcome: Outcome, program: arrays.Program) -> None:
-        """Record the state in which the loop has left the instances."""
+        """Record the states in which the loop left the instances."""
         self._fresh = False
         if outcome.is_well and not self._broken:
             self._running = self._instances.keys()
@@ -61,7 +61,7 @@ class LifeCycle:
             self._discarded.add(names[outcome.subject])
 
     def make_ready(self) -> bool:
-        """Prepare the instances for a start; return True if the loop itself must terminate and reset them.
+        """Prepare the instances for a start; return True if the loop must terminate and reset them itself.
 
         Raises InputError if an FMU cannot be instantiated again.
         """
@@ -76,7 +76,10 @@ class LifeCycle:
             if not self._is_reset(name, instance):
                 instance.free()
                 ended.append((index, instance))
-        for index, instance in ended:  # once all are freed: libraries without users are unloaded, with their state
+        for (
+            index,
+            instance,
+        ) in ended:  # only after all are freed: a library without instances is unloaded, with its state
             self._note_subject(index)
             instance.renew()
             self._readdress(index, instance)
@@ -87,12 +90,12 @@ class LifeCycle:
         return False
 
     def _is_reset(self, name: str, instance: Instance) -> bool:
-        """Reset an instance if its reset is trusted; return True on success."""
+        """Reset an instance if its reset is trusted, and return True on success."""
         sound = instance.fmu.is_self_contained or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
         if verdict_in_cache(instance.fmu) is None and instance.fmu.is_alone:
-            instance.free()  # the test needs its place
+            instance.free()  # makes room for the test, since its process permits only one instance
         if not reset_verdict(instance.fmu).resets or not instance.is_there:
             return False
         try:
@@ -115,7 +118,7 @@ class LifeCycle:
         return True
 
     def _readdress(self, index: int, instance: Instance) -> None:
-        """Replace the addresses of a component's former instance in the program."""
+        """Replace the addresses of a component's former instance in the program by those of its new instance."""
         rows = self._program.instructions
         calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
         in_memory = calls & np.isin(rows[:, codes.CODE], codes.IN_MEMORY)
@@ -129,7 +132,7 @@ class LifeCycle:
         self._instructions.addresses[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:
-        """Terminate and free all instances, except those of the FMU with the digest ``fatal``.
+        """Terminate and free all instances, except instances of the FMU with the digest ``fatal``.
 
         After fmi2Fatal no instance of an FMU may be used or freed (FMI 2.0).
         """

@@ -1,4 +1,6 @@
-"""Complete memory of a system in this process: saved, restored, read and changed at a communication point."""
+"""Complete memory of a system in this process, which can be saved, restored, read and changed at a communication
+point.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +67,7 @@ class FmuReals:
 class Memory(BaseMemory[Snapshot]):
     """Memory of a simulation in this process.
 
-    Raises InputError if an FMU does not describe its serialised state, or keeps state outside it.
+    Raises InputError if an FMU does not describe its serialised state, or has state outside it.
     """
 
     def __init__(
@@ -91,7 +93,7 @@ class Memory(BaseMemory[Snapshot]):
             ]
             references = list(dict.fromkeys(item.reference for item in mine.values()))
             self._pieces.append(FmuReals(instance, np.array(references, dtype=np.uint32), len(mine)))
-        # Followers' outputs that others read a step late are stored by the exchange only.
+        # Outputs of followers that are read one step late are stored only among the exchanged values.
         followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
         for name, slot in layout.slots.items():
@@ -102,7 +104,7 @@ class Memory(BaseMemory[Snapshot]):
                 self._slots.append(slot)
 
     def read(self) -> np.ndarray:
-        """Return the current values of all cells, in their order."""
+        """Return the current values of all cells, in the order of ``cells``."""
         parts = [piece.read() for piece in self._pieces]
         return np.concatenate([*parts, self._buffers.values[self._slots]])
 
@@ -119,7 +121,7 @@ class Memory(BaseMemory[Snapshot]):
         )
 
     def restore(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
-        """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
+        """Restore a snapshot; if ``cell`` is passed, set this cell to ``number`` afterwards."""
         for component, instance in self._instances.items():
             instance.set_state(snapshot.states[component])
         buffers = self._buffers
@@ -148,18 +150,18 @@ class Memory(BaseMemory[Snapshot]):
 def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, ScalarVariable]:
     """Return the variables that are cells, by their index in the serialised state.
 
-    The index is the value reference; elements of an array have consecutive indices from their array's reference.
+    The index is the value reference; elements of an array have consecutive indices, starting at the array's reference.
     """
     remembered: dict[int, ScalarVariable] = {}
     for variable in fmu.variables.values():
         index = variable.reference + variable.index
         if variable.representation.name == "Float64" and variable.causality in REMEMBERED and index not in frozen:
-            remembered.setdefault(index, variable)  # an alias is not a second cell
+            remembered.setdefault(index, variable)  # an alias is no second cell
     return remembered
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
-    """Return the encoding of an FMU's serialised state, and the value references declared frozen.
+    """Return the encoding of an FMU's serialised state, and the value references that are declared frozen.
 
     Raises InputError if the FMU declares neither, or has external state.
     """

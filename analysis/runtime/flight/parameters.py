@@ -20,20 +20,20 @@ from .orders.transfers import ComponentTransfers, TransferTable, select_arrays
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
 
-# By the digests of FMUs, detected in flight: variables that they do not return; FMUs that are read one variable at a
-# time; FMUs that refuse settings in initialisation mode.
+# Detected during simulations, by digest: variables that an FMU does not return, FMUs to be read one variable at a
+# time, and FMUs that refuse parameters in initialisation mode.
 _unreadable: dict[str, set[str]] = {}
 _one_by_one: set[str] = set()
 _set_once: set[str] = set()
 
 
 class Parameters:
-    """Values by (component, variable); those of one component and type are contiguous.
+    """Parameter values by (component, variable); parameters of one component and type are contiguous.
 
-    ``ranges`` [component, type of TYPE_KIND, 4] are the first parameter and three counts: of those to set, to set again
-    in initialisation mode, and to read back. The parameters of a component of FMI 3.0 are ``transfers``, rows of
-    ``table``, one for each variable with all of its elements. Those in ``tuned`` change during simulation and are not
-    read back.
+    ``ranges`` [component, type of TYPE_KIND, 4] contain the first parameter, and the numbers of parameters to set, to
+    set again in initialisation mode, and to read back. ``transfers`` contains the parameters of components of FMI 3.0
+    as rows of ``table``, one for each variable with all of its elements. Parameters in ``tuned`` change during
+    simulation and are not read back.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class Parameters:
         self._tuned = tuned
         self._table = TransferTable() if table is None else table
         self.transfers: dict[int, ComponentTransfers] = {}
-        self._layout: dict[int, tuple[str, int]] = {}  # FMI 3.0: type and first byte
+        self._layout: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type, and offset of the first byte
         self.keys: list[Key] = []
         self.types: dict[Key, str] = {}
         self.references: list[int] = []
@@ -80,14 +80,14 @@ class Parameters:
         self.values = arrays.Settings(
             np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
         )
-        self.words = np.zeros(count, dtype=np.uint64)  # FMI 3.0, as in `arrays.Fmi3`
+        self.words = np.zeros(count, dtype=np.uint64)  # values of FMI 3.0, as in `arrays.Fmi3`
         self.update({key: settings.variables[key] for key in self.keys if key in settings.variables})
         for key in self.keys:
             if key not in settings.variables:
                 self[key] = self._start(*key)
 
     def _place_transfers(self, component: str, fmu: Fmu, assigned: list[str]) -> ComponentTransfers:
-        """Return the transfers of a component of FMI 3.0, in which arrays are set as a whole."""
+        """Return the transfers of a component of FMI 3.0, each for a complete array."""
         transfers = ComponentTransfers()
         arrays_of: dict[str, list[ScalarVariable]] = {}
         for variable in select_arrays(fmu.variables.values(), set(assigned)):
@@ -121,8 +121,8 @@ class Parameters:
         - 1: set again in initialisation mode, but not read back
         - 2: set only before initialisation mode
 
-        In that mode FMI 2.0 permits setting inputs and variables with initial="exact" only; the FMU computes the others
-        itself, and a connected input is set by its connection.
+        In initialisation mode FMI 2.0 permits setting only inputs and variables with initial="exact"; the FMU computes
+        all others itself, and a connected input is set by its connection.
         """
         settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
         if not settable or (driven and variable.causality == "input"):
@@ -143,7 +143,7 @@ class Parameters:
         return key in self.positions
 
     def __getitem__(self, key: Key) -> ParameterValue:
-        """Return a parameter's value, in its type."""
+        """Return a parameter's value in the parameter's type."""
         return self.value_in(self.values, self.words, self.positions[key])
 
     def __setitem__(self, key: Key, value: ParameterValue) -> None:
@@ -163,7 +163,7 @@ class Parameters:
             self[key] = value
 
     def value_in(self, values: arrays.Settings, words: np.ndarray, position: int) -> ParameterValue:
-        """Return the value at a position of arrays with this layout; ``words`` are those of FMI 3.0."""
+        """Return the value at a position of arrays with this layout; ``words`` contain the values of FMI 3.0."""
         kind = self.types[self.keys[position]]
         if kind == "String":
             address = int(values.text[position])
@@ -184,9 +184,9 @@ class Parameters:
         return self._network.fmus[component].digest in _one_by_one
 
     def learn_unreadable(self, first: int, count: int) -> None:
-        """Note that an FMU does not return a parameter, so that it is no longer read back.
+        """Note that an FMU does not return a parameter, which is not read back any more.
 
-        If ``count`` > 1, the parameter is one of several: note to read them one by one, which identifies it.
+        If ``count`` > 1, several parameters were read and any of them may be the cause: note to read them one by one.
         """
         component, name = self.keys[first]
         fmu = self._network.fmus[component]
@@ -203,9 +203,11 @@ class Parameters:
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:
-        """Note that an FMU refuses parameters in initialisation mode; they are set before it, and still read back."""
+        """Note that an FMU refuses parameters in initialisation mode; they are only set before it, and still read
+        back.
+        """
         _set_once.add(self._network.fmus[component].digest)
 
     def blank(self) -> arrays.Settings:
-        """Return zeroed arrays of the same layout, to read parameters into."""
+        """Return zeroed arrays of the same layout, into which parameters can be read."""
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))

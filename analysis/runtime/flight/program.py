@@ -1,4 +1,4 @@
-"""Builds the arrays that the loop runs on from network, settings and schedule."""
+"""Builder of the loop's arrays from network, settings and schedule."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ from .parameters import Key, Parameters
 class Layout:
     """Layout of the arrays: slots by name, parameters, exchanged Strings and Binaries.
 
-    ``unfed`` are the slots of elements without a connection, in arrays that are set as a whole; ``bases`` those of the
-    unchanged values of parameters that change during simulation.
+    ``unfed`` contains the slots of unconnected elements of arrays that are set as a whole, and ``bases`` the slots of
+    the unchanged values of parameters that change during simulation.
     """
 
     slots: dict[str, int]
@@ -60,10 +60,11 @@ def build_program(
     injections: Sequence[Injection],
     additional: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
-    """Return the loop's arrays, those for FMI 3.0 or None, the writer of instructions, and the layout.
+    """Return the loop's arrays, its additional arrays for FMI 3.0 (or None), the writer of instructions, and the
+    layout.
 
-    ``requested`` names the signals to record (None: all exchanged ones), ``additional`` further ones. Outputs are read
-    only if they are connected or recorded, other variables only if they are named.
+    ``requested`` names the signals to record (None: all exchanged ones), and ``additional`` names further signals.
+    Outputs are read only if they are connected or recorded, other variables only if they are named.
     """
     builder = _Builder(prepared.network, settings, requested, injections, additional)
     program, instructions = builder.program(prepared, instances)
@@ -77,7 +78,7 @@ def make_layout(
     injections: Sequence[Injection] = (),
     additional: Collection[str] = (),
 ) -> Layout:
-    """Return the layout of a simulation without building its program; arguments as for `build_program`."""
+    """Return the layout of a simulation without building its program; the arguments are those of `build_program`."""
     return _Builder(network, settings, requested, injections, additional).layout()
 
 
@@ -97,8 +98,8 @@ class _Builder:
         self.slots = self.signals.numbers
         self.exchanged = Exchanged(network, requested, additional, injections)
         self.table = TransferTable()
-        self.component_slots: dict[int, ComponentSlots] = {}  # by components of FMI 2.0
-        self.transfers: dict[int, ComponentTransfers] = {}  # by components of FMI 3.0
+        self.component_slots: dict[int, ComponentSlots] = {}  # by number of the component, of FMI 2.0
+        self.transfers: dict[int, ComponentTransfers] = {}  # by number of the component, of FMI 3.0
         self.parameters = Parameters(network, settings, self.table, self.exchanged.tuned)
         self.texts, self.binaries = (TextSlots(network, settings, kind) for kind in TEXTS)
         placing = TransferPlacing(network, self.exchanged, self.signals, self.table)
@@ -127,7 +128,7 @@ class _Builder:
     def _drives(self) -> tuple[list[str], list[tuple[int, int]]]:
         """Return the names of inputs driven over time, grouped by component with system connectors last.
 
-        Also returns (first, count) of each group.
+        The (first, count) of each group is returned, too.
         """
         groups: dict[str, list[str]] = {name: [] for name in (*self.names, "")}
         for name in self.network.driven:

@@ -1,4 +1,4 @@
-"""Rows and progress of a simulation, readable while it runs and after its process has crashed."""
+"""Rows and progress of a simulation, readable during the simulation and after a crash of its process."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ OUTCOME_WORDS = codes.INSTRUCTION + 1
 
 
 class FmuActivity(IntEnum):
-    """Activity of a simulation: the group of FMI calls being executed."""
+    """Activity of a simulation: the kind of FMI calls that it is executing."""
 
     IDLE = 0
     INSTANTIATION = 1
     FLIGHT = 2
-    RENEWAL = 3  # terminated, then reset or instantiated again
-    END = 4  # terminated, then freed
+    RENEWAL = 3  # terminating, then resetting or instantiating again
+    END = 4  # terminating, then freeing
 
 
 @dataclass(eq=False)
 class FlightRecorder:
     """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; for ``outcome`` see `arrays.Buffers`.
 
-    Setting ``halt`` [1] ends the flight at its next communication point. ``phase`` [2] is the current `FmuActivity` and
-    the component concerned.
+    A nonzero ``halt`` [1] ends the flight at its next communication point. ``phase`` [2] contains the current
+    `FmuActivity` and the number of the component that it concerns.
     """
 
     record: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
@@ -38,9 +38,9 @@ class FlightRecorder:
     phase: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
 
     def reserve(self, signals: int, rows: int, step: float) -> None:
-        """Allocate memory for the rows of a simulation, unless enough is allocated already.
+        """Allocate memory for the rows of a simulation, unless enough memory is already allocated.
 
-        Raises ExcessError if memory does not suffice; its message names ``step`` (s).
+        Raises ExcessError if memory does not suffice; its message states ``step`` (s).
         """
         if self.times.size < rows:
             check_room(signals, rows, step)
@@ -51,7 +51,7 @@ class FlightRecorder:
         self.times = np.empty(rows)
 
     def enter(self, phase: FmuActivity, component: int = 0) -> None:
-        """Record the phase that begins, and the component concerned."""
+        """Record a phase that begins, and the component that it concerns."""
         self.phase[:] = phase, component
 
     @property

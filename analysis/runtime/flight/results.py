@@ -38,14 +38,14 @@ CRASHED, HUNG, OUT_OF_MEMORY = LOST = (
     "crashed",
     "hung",
     "out_of_memory",
-)  # ended with the process or thread of the simulation
+)  # statuses of simulations that lost their process or thread
 COMPLETE = ("finished", "stop_time", "terminated")
 ENDINGS = {
     "finished": "completed",
     "stop_time": "stop time reached",
     TIMED_OUT: "timed out",
     OUT_OF_MEMORY: "out of memory",
-}  # if it differs from the status
+}  # text of a status, if it differs from the status itself
 
 
 def require_pandas() -> None:
@@ -58,11 +58,21 @@ def require_pandas() -> None:
 class Flight:
     """One simulation in memory. Row n of every signal is its value at ``time[n]`` (s).
 
-    ``status`` is ``finished`` (the system ended itself), ``stop_time``, ``terminated`` (an FMU asked to end),
-    ``nonfinite`` (a component returned NaN or infinity), ``failed`` (an FMU reported an error, or did not take a
-    parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it exceeded its time limit), ``crashed`` (an FMU ended its
-    process), ``hung`` (a call of an FMU did not return) or ``out_of_memory``; ``message`` explains the last eight.
-    ``signals`` are float64 arrays, also for Integers and Booleans; ``types`` are FMI's.
+    ``status`` is one of
+
+    - ``finished``: the system ended itself
+    - ``stop_time``: the stop time was reached
+    - ``terminated``: an FMU asked to end the simulation
+    - ``nonfinite``: a component returned NaN or infinity
+    - ``failed``: an FMU reported an error, or did not accept a parameter
+    - ``interrupted``: the simulation was ended by Ctrl-C
+    - ``timed_out``: the simulation exceeded its time limit
+    - ``crashed``: an FMU ended its process
+    - ``hung``: a call of an FMU did not return
+    - ``out_of_memory``: the simulation exceeded its memory limit
+
+    ``message`` explains all but the first two. ``signals`` are float64 arrays, also for Integers and Booleans;
+    ``types`` contains their FMI types.
     """
 
     time: np.ndarray
@@ -72,9 +82,10 @@ class Flight:
     message: str
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Return the signal ``component.variable``, of shape [n], or by name a vector of k elements, [n, k].
+        """Return the signal ``component.variable``, of shape [n], or the vector of that name with k elements, of shape
+        [n, k].
 
-        Raises KeyError, with the most similar names.
+        Raises KeyError, which suggests the most similar names.
         """
         if name in self.signals:
             return self.signals[name]
@@ -88,7 +99,7 @@ class Flight:
 
     @property
     def ending(self) -> str:
-        """Text with cause and time of the end, and the number of samples."""
+        """Cause and time of the end, and the number of samples, as text."""
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         return f"{ENDINGS.get(self.status, self.status)}{end}, {self.time.size} samples"
 
@@ -97,7 +108,7 @@ class Flight:
         return self.status in COMPLETE
 
     def final(self) -> dict[str, float | int | bool]:
-        """Return the last value of each signal, in its type."""
+        """Return the last value of each signal, in the signal's type."""
         convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
         if not self.time.size:
             return {}
@@ -122,12 +133,12 @@ class Provenance(TypedDict):
     algorithm: str
     input: NotRequired[DrivenInput]
     relative_quantities: NotRequired[list[str]]  # signals that are differences in their unit
-    axes: NotRequired[dict[str, str]]  # names of those signals that are elements along a named axis
+    axes: NotRequired[dict[str, str]]  # names of axes, by signal, for elements of vectors with named axes
     perilune: str
 
 
 def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
-    """Return the Arrow type of a signal; integers have 32 bits, or more if their values need more (FMI 3.0)."""
+    """Return the Arrow type of a signal; integers beyond 32 bits become int64 or, beyond 64 bits, float64 (FMI 3.0)."""
     import pyarrow
 
     if type_name == "Boolean":
@@ -140,14 +151,14 @@ def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
 
 @dataclass(repr=False)
 class FlightResult(Flight):
-    """Flight with its signals' units, and with parameter values, hashes and versions as provenance."""
+    """Flight with the units of its signals and its provenance: parameter values, hashes and versions."""
 
     units: dict[str, str | None]
     provenance: Provenance
 
     @classmethod
     def extending(cls, flight: FlightResult, **more: Any) -> Self:
-        """Return an instance of a subclass with the fields of ``flight`` and the further fields ``more``."""
+        """Return an instance of a subclass with the fields of ``flight`` and the additional fields ``more``."""
         return cls(**vars(flight), **more)
 
     def table(self) -> pyarrow.Table:
@@ -173,14 +184,14 @@ class FlightResult(Flight):
         return {**ending, **self.provenance}
 
     def to_pandas(self) -> Any:
-        """Return a pandas.DataFrame with one column for each signal and time (s) as its index. Needs pandas."""
+        """Return a pandas.DataFrame with one column for each signal, and the time (s) as its index. Requires pandas."""
         require_pandas()
         return self.table().to_pandas().set_index("time")
 
     def write(self, path: str | Path) -> None:
         """Write a .parquet or .csv file.
 
-        A .json file next to the .csv has units, types other than Real, and provenance.
+        A .json file next to a .csv file contains units, types other than Real, and provenance.
         """
         path = Path(path)
         if path.suffix == ".parquet":
@@ -227,7 +238,7 @@ def _percent(share: float) -> str:
 
 
 def status_meaning(network: Network, name: str, value: int) -> str:
-    """Return the meaning of ``value`` of a connector ``component.status`` according to its description, or ""."""
+    """Return the meaning of a connector's status ``value``, from the connector's description, or ""."""
     component, variable = split_name(name, network.fmus)
     fmu = network.fmus.get(component)
     declared = fmu.variables.get(variable) if fmu is not None else None
@@ -237,7 +248,7 @@ def status_meaning(network: Network, name: str, value: int) -> str:
 
 
 def with_meaning(network: Network, name: str, value: int) -> str:
-    """Return a status with its meaning: ``guidance.status 3, no solution``."""
+    """Return a status with its meaning, such as ``guidance.status 3, no solution``."""
     words = status_meaning(network, name, value)
     return f"{name} {value}, {words}" if words else f"{name} {value}"
 

@@ -1,4 +1,4 @@
-"""Variable parameters and recorded signals of a simulation, for all executors."""
+"""Varied parameters and recorded signals of a simulation, for all executors."""
 
 from __future__ import annotations
 
@@ -20,16 +20,17 @@ from .orders.injections import Injection, of_excitation, of_fault
 from .parameters import Key
 from .program import Layout
 
-TIME_MARGIN = 1e-6  # fraction of a step: communication points, start + n h, are rounded
+TIME_MARGIN = 1e-6  # fraction of a step, because communication points, start + n h, are rounded
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Selection of variable parameters and recorded signals.
+    """Selection of varied parameters and recorded signals.
 
-    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``requested`` the
-    signals to record (None: all outputs, connected inputs and system connectors); ``additional`` further ones;
-    ``excited`` the connectors to which `advance` may add signals. With ``open_end``, `advance` may pass the stop time.
+    ``varied`` names the parameters (``component.variable``) that may change between simulations. ``requested`` names
+    the signals to record (None: all outputs, connected inputs and system connectors), and ``additional`` names further
+    signals. ``excited`` names the connectors to which `advance` may add signals. With ``open_end``, `advance` may pass
+    the stop time.
     """
 
     varied: tuple[str, ...] = ()
@@ -40,7 +41,7 @@ class Selection:
     open_end: bool = False
 
     def check_faults(self, network: Network) -> None:
-        """Raise InputError if a fault's target cannot have one."""
+        """Raise InputError if a fault has a target that cannot have faults."""
         for fault in self.faults:
             check_fault(network, fault)
 
@@ -49,9 +50,10 @@ class Selection:
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> SystemSettings:
-        """Return the system's settings, with every varied parameter and every one that changes during simulation.
+        """Return the system's settings, extended by all varied parameters and all parameters that change during
+        simulation.
 
-        Those without a setting have their start value.
+        Added parameters have their start values.
         """
         variables = dict(prepared.settings.variables)
         tuned = find_tuned(prepared.network, {fault.name for fault in self.faults})
@@ -65,7 +67,9 @@ class Selection:
         return replace(prepared.settings, variables=variables)
 
     def injections(self, step: float) -> list[Injection]:
-        """Return the injections of faults, then of excitations; ``step`` is the communication step (s)."""
+        """Return the injections of all faults, followed by those of excitations; ``step`` is the communication step
+        (s).
+        """
         excitations = [of_excitation(name, column) for column, name in enumerate(self.excited)]
         return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
 
@@ -79,7 +83,7 @@ class Selection:
 
 
 def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:
-    """Return the FMU variables to record, by ``component.variable``; a vector's name stands for its elements.
+    """Return the FMU variables to record, by ``component.variable``; a vector's name stands for all of its elements.
 
     If the FMU ``is_alone``, the component may be omitted. Raises InputError for unknown names and for Strings.
     """
@@ -104,7 +108,7 @@ def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) ->
 
 
 def check_replaced(declared: Sequence[Fault], faults: Sequence[Fault | None]) -> None:
-    """Assert that each fault has the connector and kind of the declared one, or is None."""
+    """Assert that each fault is None, or has the connector and kind of the declared fault that it replaces."""
     for known, fault in zip(declared, faults, strict=True):
         assert fault is None or (fault.name, fault.kind) == (known.name, known.kind)
 

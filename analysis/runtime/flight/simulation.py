@@ -36,10 +36,7 @@ from .selection import TIME_MARGIN, check_replaced
 
 
 class Simulation(BaseSimulation):
-    """Simulation in this process, whose FMU instances are reset and reused.
-
-    ``recorder`` receives the rows.
-    """
+    """Simulation in this process, which resets and reuses its FMU instances; ``recorder`` receives the rows."""
 
     def __init__(
         self, prepared: PreparedSystem, *, recorder: FlightRecorder | None = None, **choices: Unpack[Choices]
@@ -96,12 +93,12 @@ class Simulation(BaseSimulation):
         """See `BaseSimulation.fuse`. Raises InputError if the compiler rejects the steps or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=self.prepared.options.replace(flavour=FUSED))
-            with self.loop.under_way:  # prevents `close` while the instances are read
+            with self.loop.under_way:  # prevents `close` while the instances are in use
                 self.fused_steps = self._fuse(fused)
             self.prepared = fused
 
     def ignore_finished(self) -> None:
-        """Continue later simulations beyond the system's own end."""
+        """Let later simulations continue after the system has finished."""
         self.program = self.program._replace(finished_slot=-1)
         self.fused_steps = self._fuse(self.prepared)
 
@@ -115,13 +112,13 @@ class Simulation(BaseSimulation):
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """See `BaseSimulation.set`.
 
-        Elements of partly connected arrays and parameters that change during simulation are set at each step, too.
+        Elements of partly connected arrays, and parameters that change during simulation, are set in each step, too.
         """
         super().set(values)
         self._initialise_unfed()
 
     def _initialise_unfed(self) -> None:
-        """Initialise elements of partly connected arrays, and unchanged values, with the current parameters."""
+        """Initialise the slots of unconnected array elements and of unchanged values with the current parameters."""
         for key, slot in self.layout.bases.items():
             if key in self.layout.parameters:
                 self.program.initial[slot] = float(self.layout.parameters[key])
@@ -176,10 +173,11 @@ class Simulation(BaseSimulation):
 
     @property
     def group_size(self) -> int:
-        """Number of simulations run together: only for Perilune's FMUs, whose reset is trusted, and without a log.
+        """Number of simulations that can run in one group.
 
-        0 for systems with FMUs of FMI 3.0, or with parameters that change during simulation, whose unchanged values are
-        set here and not by the loop.
+        Only simulations of Perilune's FMUs, whose reset is trusted, run in groups, and only without a log. The number
+        is 0 for systems with FMUs of FMI 3.0, and for systems with parameters that change during simulation, because
+        the loop does not set their unchanged values.
         """
         flies_groups = self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
         flies_groups = flies_groups and not self.layout.bases
@@ -194,7 +192,7 @@ class Simulation(BaseSimulation):
         recorder.reserve(signals, rows * table.flights, prepared.step)
         recorder.enter(FmuActivity.FLIGHT)
         for instance in self.instances.values():
-            instance.raw_messages.clear()  # normal ends are not reported
+            instance.raw_messages.clear()  # messages of simulations without failure are not reported
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
         flown = self.loop.fly_group(self._run(-1, prepared.steps, 1, reset, NOTHING), group)
         ends = group.ends[:flown]
@@ -210,7 +208,7 @@ class Simulation(BaseSimulation):
         )
 
     def _conclude(self, outcome: Outcome, start: int, end: int) -> Flight:
-        """Return the flight with these rows of the record, with the status that the loop reported."""
+        """Return the flight with these rows of the record and the status that the loop reported."""
         prepared, recorder = self.prepared, self.recorder
         recorder.enter(FmuActivity.IDLE)
         self.life_cycle.note(outcome, self.program)
@@ -244,7 +242,7 @@ class Simulation(BaseSimulation):
         return flight
 
     def _run(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> arrays.Run:
-        """Return the loop's arguments to simulate between two communication points."""
+        """Return the loop's arguments for a simulation between two communication points."""
         prepared = self.prepared
         span = arrays.Span(
             reset=reset,
@@ -266,13 +264,13 @@ class Simulation(BaseSimulation):
         )
 
     def _has_learned(self, outcome: Outcome) -> bool:
-        """Return True if an FMU rejected a call that later starts avoid, so that the simulation is restarted."""
+        """Return True if an FMU rejected a call that later starts avoid, so that the simulation must be restarted."""
         parameters = self.layout.parameters
         if outcome.is_unreadable(self.program):
             code, first, count = self.program.instructions[
                 outcome.instruction, [codes.CODE, codes.FIRST, codes.COUNT]
             ].tolist()
-            if code == codes.TAKE_BACK and self.fmi3 is not None:  # a transfer of one variable
+            if code == codes.TAKE_BACK and self.fmi3 is not None:  # it concerns the transfer of one variable
                 first = int(self.fmi3.transfers.rows[first, codes.FIRST_VALUE])
             parameters.learn_unreadable(first, count)
         elif outcome.is_refused_again(self.program):
@@ -282,7 +280,7 @@ class Simulation(BaseSimulation):
         return True
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
-        """Record the final row at the time ``end`` (s) at which a component ended the simulation."""
+        """Record the last row, at the time ``end`` (s) at which a component ended the simulation."""
         instructions = write_ending(self._instructions, component)
         whole = np.array([0, len(instructions)], dtype=np.int64)
         record = np.empty((self._recorded.size, 1))
@@ -296,7 +294,7 @@ class Simulation(BaseSimulation):
         self.recorder.record[:, row] = record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
-        """Instantiate all FMUs again, with the current parameter values; ``fatal`` as in `LifeCycle.close`."""
+        """Instantiate all FMUs again, with the current parameter values; ``fatal`` is as in `LifeCycle.close`."""
         retained = self.layout.parameters
         self.life_cycle.close(fatal)
         self.instances = {}
@@ -305,11 +303,11 @@ class Simulation(BaseSimulation):
         self._initialise_unfed()
 
     def memory(self) -> Memory:
-        """Return the memory of the FMUs. Raises InputError if one does not describe its serialised state."""
+        """Return the memory of the FMUs. Raises InputError if an FMU does not describe its serialised state."""
         return Memory(self.prepared, self.layout, self.instances, self.buffers, self.fmi3)
 
     def close(self) -> None:
-        """Free the instances. Those of a simulation still running in an abandoned thread stay until exit."""
+        """Free the instances. Instances that are still running in an abandoned thread exist until exit."""
         if self.loop.under_way.acquire(blocking=False):
             self.recorder.enter(FmuActivity.END)
             if self._log is not None:

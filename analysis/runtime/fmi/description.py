@@ -1,4 +1,4 @@
-"""Requirements on the modelDescription.xml of an FMU of FMI 3.0, and elements of it that FMPy does not read."""
+"""Requirements on the modelDescription.xml of an FMU of FMI 3.0, and its elements that FMPy does not read."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def is_fmi3(version: str | None) -> bool:
 
 
 def check_description(root: etree._Element, label: str) -> None:
-    """Reject an FMU without co-simulation, with clocks, or with missing names or references or malformed numbers.
+    """Reject an FMU without co-simulation, with clocks, with missing names or references, or with malformed numbers.
 
-    Raises InputError, with the FMU's ``label``.
+    Raises InputError with the FMU's ``label``.
     """
     require_attributes(root, ("modelName", "instantiationToken"), label, _line_of(root))
     interface = root.find("CoSimulation")
@@ -62,7 +62,7 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def complete(description: ModelDescription, root: etree._Element) -> None:
-    """Add what FMPy's description omits: limits of unsigned and typed variables, start values of arrays."""
+    """Add information that FMPy's description lacks: limits of unsigned and typed variables, start values of arrays."""
     elements = {each.get("name"): each for each in root.iterfind("ModelVariables/*")}
     for variable in description.modelVariables:
         element = elements[variable.alias.name if variable.alias is not None else variable.name]
@@ -74,7 +74,7 @@ def complete(description: ModelDescription, root: etree._Element) -> None:
 
 
 def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str) -> None:
-    """Reject arrays with more elements than can be exchanged one by one. Raises InputError."""
+    """Reject arrays with too many elements for an exchange element by element. Raises InputError."""
     total = sum(math.prod(shape(each, sizes)) for each in description.modelVariables if each.dimensions)
     if total > MOST_ELEMENTS:
         problem = f"its arrays have {total} elements, more than the limit of {MOST_ELEMENTS}"
@@ -108,7 +108,8 @@ def _check_variable(variable: etree._Element, label: str) -> None:
 
 
 def _starts(variable: etree._Element) -> list[str]:
-    """Return the declared start values, one or one for each element; those of texts are child elements.
+    """Return the declared start values: a single value, or a value for each element. Values of texts are child
+    elements.
 
     The FMU Manipulation Toolbox declares the start values of all arrays as child elements.
     """

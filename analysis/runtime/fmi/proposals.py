@@ -1,4 +1,4 @@
-"""Communication steps that FMUs propose: the step of the default experiment, or a fixed internal step."""
+"""Communication steps proposed by FMUs: the step of the default experiment, or a fixed internal step."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from ..ssp.fmu_description import DESCRIPTION
 
 
 def step_of_experiment(description: ModelDescription, label: str, notes: list[str]) -> float | None:
-    """Return the step (s) of an FMU's default experiment, or None if it states none.
+    """Return the step (s) of an FMU's default experiment, or None if it states no step.
 
-    Some tools write 0 for no step, which is noted. Raises InputError for other values that are not positive numbers.
+    Some tools write 0 for no step, which is reported in a note. Raises InputError for any other value that is not a
+    positive number.
     """
     text = getattr(description.defaultExperiment, "stepSize", None)
     return _seconds(text, STEP_SIZE, label, notes)

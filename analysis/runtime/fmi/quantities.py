@@ -1,4 +1,4 @@
-"""Attribute relativeQuantity of variables, which FMPy misses because it looks in the wrong element."""
+"""Attribute relativeQuantity of variables, which FMPy misses because it reads it from the wrong element."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ STATED = ("ModelVariables/ScalarVariable/Real[@relativeQuantity]", "ModelVariabl
 
 
 def complete_quantities(description: ModelDescription, root: etree._Element) -> None:
-    """Set relativeQuantity on the variables of FMPy's description whose elements state it, and on their aliases."""
+    """Set relativeQuantity on the variables in FMPy's description that declare it, and on their aliases."""
     stated: dict[str | None, bool] = {}
     for path in STATED:
         for element in root.iterfind(path):
             owner = element if element.tag != "Real" else element.getparent()
-            assert owner is not None  # the path names it
+            assert owner is not None  # a path found it
             stated[owner.get("name")] = element.get("relativeQuantity", "").strip() in ("true", "1")
     for variable in description.modelVariables if stated else ():
         name = variable.name if variable.alias is None else variable.alias.name

@@ -1,4 +1,4 @@
-"""Storage of variables: the types of FMI 3.0 with their ranges, and the runtime's type of each."""
+"""Representation of values: the types of FMI 3.0 with their ranges, and the corresponding type of the runtime."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 
 UNBOUNDED = (-np.inf, np.inf)
 SINGLE = float(np.finfo(np.float32).max)
-EXACT = 2**53  # integers up to this one are exact in float64
+EXACT = 2**53  # float64 represents all integers up to this one exactly
 
 
 class Representation(NamedTuple):
-    """Type of FMI 3.0; ``type`` is the runtime's: Real, Integer, Boolean, String or Binary."""
+    """Type of FMI 3.0; ``type`` is the corresponding type of the runtime: Real, Integer, Boolean, String or Binary."""
 
     name: str
     type: str
@@ -21,15 +21,15 @@ class Representation(NamedTuple):
 
     @property
     def is_wide(self) -> bool:
-        """True if it has integers that a float64 cannot represent."""
+        """True if the type contains integers that a float64 cannot represent."""
         return self.dtype in ("int64", "uint64")
 
     def describe_problem(self) -> str:
-        """Return the predicate of the error message for a number out of range."""
+        """Return the predicate of the error message for a number that is out of range."""
         return "has more than 32 bits" if self.name == "Int32" else f"is not of type {self.name}"
 
     def describe_range(self) -> str:
-        """Return the permitted integers as text, the object of a sentence."""
+        """Return the permitted integers as text, for use as the object of a sentence."""
         low, high = self.limits
         return "a whole number of 32 bits" if self.name == "Int32" else f"a whole number from {low} to {high}"
 
@@ -40,7 +40,7 @@ def _make_integer(name: str) -> Representation:
     return Representation(name, "Integer", dtype, (int(limits.min), int(limits.max)))
 
 
-# In the order of the loop's numbers, `loop.codes`.
+# In the order of the loop's kinds of transfers, `loop.codes`.
 REPRESENTATIONS = {
     each.name: each
     for each in (

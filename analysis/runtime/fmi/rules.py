@@ -1,4 +1,4 @@
-"""Rules of FMI on a model description, beyond its schema."""
+"""Rules of FMI on a model description that its schema does not contain."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from fmpy.model_description import ModelDescription
 from fmpy.validation import validate_model_description
 
 ELEMENT = r"[A-Za-z_][A-Za-z0-9_]*(\[[0-9]+(,[0-9]+)*\])?"
-PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # among names that FMI 2.0's structured naming convention allows
+PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # permitted by FMI 2.0
 
 
 def broken_rules(description: ModelDescription) -> list[str]:
     """Return violations of FMI's rules on the names of variables and on the model structure."""
-    # FMPy parses a name in a millisecond: it is asked about those that are not plainly right.
+    # FMPy needs a millisecond to parse a name: it only checks names that are not plain.
     doubtful = [variable for variable in description.modelVariables if not PLAIN_NAME.fullmatch(variable.name)]
     partial = evolve(description, modelVariables=doubtful)
     others = validate_model_description(partial)
     rules = [rule for rule in validate_model_description(partial, validate_variable_names=True) if rule not in others]
-    # FMPy asks for aliases of what the structure lists
+    # FMPy also requires the aliases of listed variables
     unnamed = evolve(description, modelVariables=[each for each in description.modelVariables if not each.alias])
     rules += validate_model_description(unnamed, validate_model_structure=True)
     return [" ".join(rule.split()) for rule in rules]

@@ -1,4 +1,6 @@
-"""Structural parameters of a component of FMI 3.0, which size its arrays, read before its variables are named."""
+"""Structural parameters of a component of FMI 3.0, which determine array sizes and are read before variables are
+named.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +19,10 @@ def structural_sizes(
     names: Collection[str],
     chosen: Sequence[Assignment],
 ) -> dict[str, int]:
-    """Return the values of the structural parameters of a component, by its flat name.
+    """Return the values of the structural parameters of a component, by the component's flat name.
 
-    They are set by its bindings, by those of the systems around it, and by ``chosen``; later ones win. Raises
-    InputError for a value that is not an integer.
+    They are set by the component's bindings, by bindings of the systems around it, and by ``chosen``; later values
+    override earlier ones. Raises InputError for a value that is not an integer.
     """
     sizes: dict[str, int] = {}
     for prefix, bindings in _bindings(description.system, component):
@@ -31,7 +33,7 @@ def structural_sizes(
 
 
 def _bindings(system: SystemElement, component: str) -> Iterator[tuple[str, list[Binding]]]:
-    """Yield bindings from the component outwards, each with the prefix that its names need there."""
+    """Yield bindings from the component outwards, each with the prefix of the component's names in it."""
     owner, remainder = _element(system, component)
     if owner is None:
         return
@@ -43,7 +45,7 @@ def _bindings(system: SystemElement, component: str) -> Iterator[tuple[str, list
 
 
 def _element(system: SystemElement, name: str) -> tuple[Element | None, str]:
-    """Return the element of a system that a flat name begins with, and the rest of the name."""
+    """Return the element of a system with which a flat name begins, and the remainder of the name."""
     for short, element in system.elements.items():
         if name == short or (isinstance(element, SystemElement) and name.startswith(f"{short}.")):
             return element, name[len(short) + 1 :]

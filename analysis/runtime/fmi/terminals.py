@@ -1,4 +1,4 @@
-"""Terminals of an FMU of FMI 3.0: variables that are connected together, by the name of their port."""
+"""Terminals of an FMU of FMI 3.0: groups of variables that are connected together, by the name of the terminal."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Variable of an FMU as the runtime uses it: one number or text, in any version of FMI.
+"""Variable of an FMU as the runtime uses it: a single number or text, in any version of FMI.
 
-An array of FMI 3.0 becomes one variable for each element, ``x[1]`` or ``x[2,1]``, row by row, as FMI 2.0 names the
-elements of a vector.
+An array of FMI 3.0 becomes one variable for each element, named ``x[1]`` or ``x[2,1]`` in row-major order, like the
+elements of a vector in FMI 2.0.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ class ScalarVariable:
     """Scalar variable, or one element of an array.
 
     ``type`` is Real, Integer, Boolean, Enumeration, String or Binary. Bounds and ``start`` are text, as declared.
-    ``start`` is None if none is declared, as for elements beyond the sizes that the description declares.
+    ``start`` is None if no value is declared, as for elements beyond the sizes in the description.
     """
 
     name: str
     type: str
     representation: Representation
-    reference: int  # value reference, for an element its array's
+    reference: int  # value reference of the variable, or of the array that contains the element
     causality: str
     variability: str
     initial: str | None = None
@@ -37,9 +37,9 @@ class ScalarVariable:
     is_relative: bool = False  # a difference of values in the unit, to which its offset does not apply
     description: str | None = None
     items: Mapping[str, int] = field(default_factory=dict)  # items of an Enumeration
-    meanings: Mapping[str, str] = field(default_factory=dict)  # descriptions of its items, if any
+    meanings: Mapping[str, str] = field(default_factory=dict)  # descriptions by item, for items that have one
     array: str = ""  # name of the array that contains it
-    index: int = 0  # position among the array's elements
+    index: int = 0  # position in the array, row-major
 
     @property
     def is_tunable(self) -> bool:
@@ -48,7 +48,7 @@ class ScalarVariable:
 
     @property
     def start_text(self) -> str:
-        """Declared start, or "nan" if none is declared."""
+        """Declared start value, or "nan" if there is none."""
         return "nan" if self.start is None else self.start
 
 
@@ -64,9 +64,9 @@ def scalars(declared: Sequence[ModelVariable]) -> dict[str, ScalarVariable]:
 
 
 def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, ScalarVariable]:
-    """Return the variables of an FMU of FMI 3.0 by name, arrays as their elements.
+    """Return the variables of an FMU of FMI 3.0 by name, with arrays as their elements.
 
-    ``sizes`` are values of structural parameters by value reference.
+    ``sizes`` maps value references of structural parameters to their values.
     """
     variables: dict[str, ScalarVariable] = {}
     for each in declared:
@@ -77,7 +77,7 @@ def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> 
 
 
 def shape(declared: ModelVariable, sizes: Mapping[int, int] | None = None) -> tuple[int, ...]:
-    """Return the dimensions of a variable, () for a scalar, with declared sizes or those of ``sizes``."""
+    """Return the dimensions of a variable, () for a scalar, with declared sizes or with ``sizes``."""
     return tuple(
         int(each.start) if each.start is not None else (sizes or {}).get(each.valueReference, int(each.variable.start))
         for each in declared.dimensions

@@ -1,1 +1,1 @@
-"""Steps of a system compiled as one C function, from the C inside its FMUs."""
+"""Steps of a system compiled as one C function, from the C code inside its FMUs."""

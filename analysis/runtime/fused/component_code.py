@@ -1,4 +1,4 @@
-"""C of one component inside a larger translation unit: headers included, names prefixed."""
+"""C code of one component inside a larger translation unit: headers included, names prefixed."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ TOKEN = re.compile(
     re.DOTALL,
 )
 MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-JOINED = re.compile(r"(\w+)##")  # the first half of a name that a macro joins
-USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument after that half
+JOINED = re.compile(r"(\w+)##")  # the constant part of a name that a macro joins
+USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # the other part, the first argument of a macro
 RESERVED = re.compile(r"_[_A-Z]")
 WRAPPER = '#include "fmi2_wrapper.h"'
-INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # only the types: its functions are not in the unit
-NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper, only an instance and its steps are needed
+INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # types without functions, which the unit does not contain
+NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # the parts of the wrapper for an instance and its steps
 
 OFFSETS = """
 /* The offset of a variable in an instance, by its value reference. */
@@ -32,7 +32,7 @@ _UNIT_EXPORT uint32_t offset_of(uint32_t reference)
 }
 """
 
-# Names of C and its library, which must not be prefixed; the compiler rejects code if one is missing here.
+# Names of C and its library, which must not be prefixed. If one is missing here, the compiler rejects the code.
 STANDARD = frozenset(
     re.findall(
         r"\w+",
@@ -53,7 +53,7 @@ STANDARD = frozenset(
 
 @dataclass(frozen=True)
 class ComponentCode:
-    """C ``text`` whose names get a ``prefix`` when compiled, and the standard ``headers`` that it needs."""
+    """C ``text`` with names that get a ``prefix`` when compiled, and the standard ``headers`` that it needs."""
 
     prefix: str
     text: str
@@ -63,8 +63,8 @@ class ComponentCode:
 def component_code(sources: Mapping[str, str], model: str, prefix: str, label: str) -> ComponentCode:
     """Return the C code of one of Perilune's native FMUs without the FMI functions; ``sources`` are by file name.
 
-    ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, if the C is from another version
-    of Perilune.
+    ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, if the code is from another
+    version of Perilune.
     """
     main = sources.get(f"{model}.c", "")
     if WRAPPER not in main:
@@ -78,7 +78,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
 
 
 def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], included: set[str]) -> str:
-    """Return the text with each of its headers inserted once; collect standard ones in ``headers``."""
+    """Return the text with each of its own headers inserted once; collect standard headers in ``headers``."""
 
     def put(include: re.Match[str]) -> str:
         file = INSTEAD.get(include[2], include[2])
@@ -96,10 +96,11 @@ def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str
 
 
 def _rename(text: str, prefix: str) -> str:
-    """Return the text between lines that define a prefixed macro for each of its names, and undefine it.
+    """Return the text, enclosed by lines that define a macro with the prefixed name for each of its names, and
+    undefine it.
 
-    The preprocessor renames, because the C also joins names (``py_##name``). Macro names of the text are undefined,
-    too.
+    The preprocessor renames, because the C code also joins names (``py_##name``). Macros that the text defines are
+    undefined, too.
     """
     names = {token["name"] for token in TOKEN.finditer(text) if token["name"]}
     names |= {first + second for first in JOINED.findall(text) for second in USE.findall(text)}

@@ -1,4 +1,4 @@
-"""Compilation of a system's steps into one function, from the C inside its FMUs."""
+"""Compilation of a system's steps into one function, from the C code inside its FMUs."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from .refusals import INSTALL, NO_COMPILER, NO_PLATFORM, has_code
 from .unit import ENTRY, SELF_TEST, write_unit
 
 FILE = "fused.c"
-# Instructions of this processor round like those of all others, and take a tenth less time.
+# Optimisation for this processor rounds as code for any processor does, and saves a tenth of the time.
 FLAGS = (*FMU_FLAGS, FOR_THIS_PROCESSOR)
 MOST_CODES = 64  # FMUs in the cache
-MOST_INSTRUCTIONS = 20_000  # a minute of compilation
+MOST_INSTRUCTIONS = 20_000  # take about a minute to compile
 
 
 def is_compilable(program: arrays.Program) -> bool:
-    """Return True if the steps of a program compile within a minute."""
+    """Return True if the steps of a program can be compiled within about a minute."""
     return int(program.phases[-1] - program.phases[0]) <= MOST_INSTRUCTIONS
 
 
@@ -44,10 +44,10 @@ def fuse(
 ) -> int:
     """Return the address of a function that executes the steps of ``program`` and records these slots.
 
-    It contains the C code of the native FMUs among ``instances``; other FMUs are called through FMI. The library is
-    cached by its content. Compilation is cancelled once ``is_needed`` returns False. Raises InputError if there is no
-    compiler, if it fails or changes results, if no library can be written, if the C code of an FMU is from another
-    build, or if the steps repeat too late.
+    The function contains the C code of the native FMUs among ``instances``; other FMUs are called through FMI. The
+    library is cached by its content. Compilation is cancelled once ``is_needed`` returns False. Raises InputError if
+    there is no compiler, if it fails or changes results, if no library can be written, if the C code of an FMU is from
+    another build, or if the steps repeat only after too many communication steps.
     """
     components = _component_codes(instances)
     if not is_compilable(program):
@@ -121,7 +121,7 @@ def _load(file: Path) -> ctypes.CDLL:
 
 
 def _check_arithmetic(library: ctypes.CDLL) -> None:
-    """Reject a compiler that changes results, as FMUs do for their C."""
+    """Reject a compiler that changes results, as FMUs do for their C code."""
     check = getattr(library, SELF_TEST)
     check.restype = ctypes.c_char_p
     problem = check()
@@ -130,7 +130,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:
-    """Reject C with another memory layout than the FMU's binary, since it belongs to another program."""
+    """Reject C code whose memory layout differs from that of the FMU's binary, since it belongs to another program."""
     offset_of = getattr(library, f"{code.prefix}offset_of")
     offset_of.restype, offset_of.argtypes = ctypes.c_uint32, [ctypes.c_uint32]
     for variable in instance.fmu.variables.values():

@@ -1,4 +1,4 @@
-"""Requirements on systems whose steps are compiled, checked before any simulation."""
+"""Requirements on systems with steps to be compiled, checked before any simulation."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ def has_code(fmu: Fmu) -> bool:
 
 
 def can_fuse(prepared: PreparedSystem) -> bool:
-    """Return True if all FMUs contain their C, and a compiler is available."""
+    """Return True if all FMUs contain their C code, and a compiler is available."""
     return all(map(has_code, prepared.network.fmus.values())) and local_platform() in available_platforms()
 
 
 def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
-    """Reject the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
+    """Reject the flavour `FUSED` for a system with steps that could not be compiled. Raises InputError.
 
-    ``in_child``: the system is simulated in child processes.
+    ``in_child`` is True if the system is simulated in child processes.
     """
     if prepared.options.chosen["flavour"] != FUSED:
         return

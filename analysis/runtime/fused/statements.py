@@ -1,7 +1,7 @@
 """C statements equivalent to the loop's instructions.
 
-Every statement has the effect that `loop/c/loop.c` gives its code, in the same order of operations, and sets the same
-outcome if it fails: results are bitwise those of the interpreted instructions.
+Every statement has the effect that `loop/c/loop.c` gives its code, with the same order of operations and, on failure,
+the same outcome: results are bitwise equal to those of interpreted instructions.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from ....fmus_src.export.write.names import literal
 from ..loop import arrays, codes
 
 INJECTIONS = {codes.OVERRIDE: "OVERRIDE", codes.BIAS: "BIAS", codes.FREEZE: "FREEZE", codes.EXCITE: "EXCITE"}
-INSTANCE_POINTER = "c{}"  # for components whose C is in the unit
+INSTANCE_POINTER = "c{}"  # pointer to a component whose C code is in the unit
 
 
 class Instruction(NamedTuple):
-    """Instruction of the loop with its ``number``; columns as in `codes`."""
+    """Instruction of the loop with its ``number``; the columns are those of `codes`."""
 
     number: int
     code: int
@@ -34,13 +34,13 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True)
 class Statements:
-    """Writer of statements for a ``program``; ``prefixes`` are those of components whose C is in the unit."""
+    """Writer of statements for a ``program``; ``prefixes`` are those of components whose C code is in the unit."""
 
     program: arrays.Program
     prefixes: Mapping[int, str]
 
     def of(self, instruction: Instruction) -> list[str]:
-        """Return the lines for one instruction; none for instructions of FMI 3.0."""
+        """Return the lines for an instruction; no lines for instructions of FMI 3.0."""
         return WRITERS[instruction.code](self, instruction)
 
     def variable(self, row: Instruction, kind: str, index: int) -> str:
@@ -61,14 +61,14 @@ class Statements:
         return f"CHECK(status, {row.component}, {row.function}, {row.number});"
 
     def check_finite(self, row: Instruction) -> list[str]:
-        """Return statements that end the simulation at the first slot whose value is not finite."""
+        """Return statements that end the simulation at the first slot with a value that is not finite."""
         slots = range(row.first, row.first + row.size)
         doubt = " + ".join(f"(values[{slot}] - values[{slot}])" for slot in slots)
         return [f"if ({doubt} != 0.0) CHECK_FINITE({row.first}, {row.size}, {row.number});"]
 
 
 def _function(row: Instruction, parameters: str) -> str:
-    """Return an expression for the FMI function of an instruction, by its address."""
+    """Return an expression for the FMI function of an instruction, from the function's address."""
     address = f"instructions[{row.number * codes.COLUMNS + codes.ADDRESS}]"
     return f"((int (*)({parameters}))(uintptr_t){address})"
 
@@ -96,7 +96,9 @@ def _take_boolean(to: Statements, row: Instruction) -> list[str]:
 
 
 def _take_whole(to: Statements, row: Instruction) -> list[str]:
-    """Return a check of the next instruction's integers, whose FMU rejects numbers beyond 32 bits."""
+    """Return the statements that read integers, and a condition under which the next instruction lets the FMU reject
+    them.
+    """
     reads = [f"values[{row.first + i}] = (double){to.variable(row, 'int64_t', i)};" for i in range(row.size)]
     fits = " && ".join(
         f"{variable} >= INT32_MIN && {variable} <= INT32_MAX"
@@ -150,7 +152,7 @@ def _add(to: Statements, row: Instruction) -> list[str]:
 
 
 def table_entries(program: arrays.Program, number: int) -> list[tuple[float, float]]:
-    """Return the mapping of a connection as (from, to); an entry from NaN means that other values stay unchanged."""
+    """Return the mapping of a connection as pairs (from, to); with a pair from NaN, other values stay unchanged."""
     first, count = program.table[number].tolist()
     entries = slice(first, first + count)
     return list(zip(program.table_from[entries].tolist(), program.table_to[entries].tolist(), strict=True))

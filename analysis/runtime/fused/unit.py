@@ -63,7 +63,7 @@ _UNIT_EXPORT int64_t {entry}(const Run *run, int64_t point, int64_t rows, int64_
 
 
 def write_unit(program: arrays.Program, recorded: Iterable[int], components: Mapping[int, ComponentCode]) -> str:
-    """Return the unit of a ``program`` that records these slots, with the code of components by number."""
+    """Return the translation unit of a ``program`` that records these slots, with the code of components by number."""
     kinds = {code.prefix: code for code in components.values()}
     headers = {"<math.h>", "<stdint.h>", "<string.h>", *(header for kind in kinds.values() for header in kind.headers)}
     statements = Statements(program, {component: code.prefix for component, code in components.items()})

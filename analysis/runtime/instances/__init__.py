@@ -1,1 +1,1 @@
-"""FMU instances: their libraries, calls, log messages, and whether they can be reset."""
+"""FMU instances: their libraries, calls, log messages, and whether a reset restores them."""

@@ -26,12 +26,12 @@ STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
 
 def status_word(status: int) -> str:
-    """Return the name of an fmi2Status, also for numbers that FMI does not define."""
+    """Return the name of an fmi2Status, or a text for numbers that FMI does not define."""
     return STATUSES[status] if 0 <= status < len(STATUSES) else f"{status}, which FMI does not define"
 
 
 class Log:
-    """Writer of the messages of a simulation's FMUs, those of ``level`` (one of `LOG_LEVELS`) and more severe ones.
+    """Writer of the messages of a simulation's FMUs that have ``level`` (one of `LOG_LEVELS`) or are more severe.
 
     At most MOST_MESSAGES are written for each component. ``place`` precedes each line; in a batch it names the trial.
     If ``emit`` is passed, it receives the lines instead of standard error.
@@ -50,11 +50,11 @@ class Log:
         return self.level == LOG_LEVELS[-1]
 
     def follow(self, clock: Callable[[], float]) -> None:
-        """Put the simulation time (s) that ``clock`` returns before each message."""
+        """Write the simulation time (s) returned by ``clock`` in front of each message."""
         self._clock = clock
 
     def write(self, component: str, status: int, category: str, message: str) -> None:
-        """Write one message on one line; the lines of an FMU's message are joined by " | "."""
+        """Write a message on one line; the lines of an FMU's message are joined by " | "."""
         if not 0 <= status < len(STATUSES) or status >= SAID_FROM[self.level]:
             time = "" if self._clock is None else f"t = {self._clock():.9g} s: "
             self._counts[component] = self._counts.get(component, 0) + 1
@@ -65,7 +65,7 @@ class Log:
             self.emit(f"{time}{component}: {status_word(status)}{label}: {text}")
 
     def close(self) -> None:
-        """Write how many messages were omitted."""
+        """Write the numbers of omitted messages."""
         for component, count in self._counts.items():
             if count > MOST_MESSAGES:
                 self.emit(f"{component}: and {count - MOST_MESSAGES} more messages")
@@ -105,7 +105,7 @@ class Instance:
 
     @property
     def messages(self) -> list[str]:
-        """Messages of the FMU since the current simulation began."""
+        """Messages of the FMU since the beginning of the current simulation."""
         return [_text(message) for message in self.raw_messages]
 
     def function_addresses(self) -> list[int]:
@@ -113,11 +113,11 @@ class Instance:
         return self.library.addresses
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Return the address of values that are contiguous in this instance's memory, in order; 0 if there is none.
+        """Return the address of values that are contiguous in this instance's memory, in order.
 
-        ``references`` are uint32 value references, ``kind`` is their type, one of PLACED. The values may be read there
-        between steps, and written if ``to_set``. The address is 0 if they are not contiguous, or the FMU does not
-        disclose it.
+        ``references`` are uint32 value references of variables of one ``kind``, which is a key of PLACED. The values
+        may be read at this address between steps, and written if ``to_set``. The address is 0 if the values are not
+        contiguous, or if the FMU does not disclose it.
         """
         if self.library.place is None:
             return 0
@@ -159,12 +159,12 @@ class Instance:
             release(self.fmu)
 
     def abandon(self) -> None:
-        """Mark the instance as unusable: it is neither called nor freed again."""
+        """Mark the instance as unusable: it is neither called nor freed any more."""
         self.is_there = False
         _alone.discard(self.fmu.digest)
 
     def renew(self) -> None:
-        """Instantiate the FMU again, in place of the freed instance. Raises InputError."""
+        """Instantiate the FMU again to replace the freed instance. Raises InputError."""
         fresh = instantiate(self.fmu, self.name, self.log, uses_events=self.uses_events)
         self.library, self.slave, self.raw_messages, self.is_there = (
             fresh.library,
@@ -183,11 +183,11 @@ class _MessageLog(list[bytes]):
     listener: Listener | None = None
 
 
-# fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
+# FMPy's proxy, which formats printf messages, has one logger per process, which finds the log by instance name.
 _logs: dict[str, _MessageLog] = {}
-_environments: dict[int, _MessageLog] = {}  # likewise for FMI 3.0, by the pointer passed to instances
+_environments: dict[int, _MessageLog] = {}  # the same for FMI 3.0, by the pointer passed to instances
 _instances = itertools.count(1)
-_alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
+_alone: set[str] = set()  # digests of instantiated FMUs that a process can only instantiate once
 
 
 def _log(_environment: object, instance: bytes, status: int, category: bytes, message: bytes) -> None:
@@ -221,7 +221,7 @@ def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
 def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
     """Return callbacks that format printf messages (FMI 2.0), whose arguments may be missing.
 
-    FMPy's formatting library has one logger for the whole process, the last one set, and FMPy sets its own whenever it
+    FMPy's formatting library has one logger for the entire process, which FMPy replaces by its own whenever it
     simulates.
     """
     callbacks = _make_callbacks()
@@ -231,18 +231,18 @@ def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
 
 _logger = fmi2.fmi2CallbackLoggerTYPE(_log)
 _plain_callbacks = _make_callbacks()
-_fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # FMI 3.0 has unformatted messages
+_fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # messages of FMI 3.0 contain no format
 _formats = True
 
 
 def leave_messages_unformatted() -> None:
-    """Keep the messages of FMUs that are instantiated from now on as they are, without formatting their arguments."""
+    """Write messages of FMUs that are instantiated from now on without formatting their arguments."""
     global _formats
     _formats = False
 
 
 def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: bool = False) -> Instance:
-    """Instantiate an FMU for the component ``name``, which is made unique in the process.
+    """Instantiate an FMU for the component ``name``, to which a suffix is added that is unique in the process.
 
     ``log`` receives its messages. With ``uses_events`` the instance uses event mode of FMI 3.0, which the FMU must
     support. Raises InputError.
@@ -271,7 +271,7 @@ def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: boo
             callbacks = _make_formatting_callbacks() if _formats else _plain_callbacks
             slave.instantiate(callbacks=callbacks, loggingOn=True)
         if log is not None and log.everything:
-            slave.setDebugLogging(True, [])  # no categories named: all of them
+            slave.setDebugLogging(True, [])  # all categories, as none is named
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
         _alone.discard(fmu.digest)
         if library is not None:

@@ -43,7 +43,7 @@ FUNCTION_NAMES = (
     "fmi3Terminate",
 )
 
-# FMPy changes the process's working directory while it loads a library. Hold this lock while doing so,
+# FMPy changes the process's working directory while it loads a library. Hold this lock while loading one,
 # or while reading files by relative path when other threads may do so.
 LOADING = threading.RLock()
 
@@ -53,7 +53,7 @@ class Library:
 
     def __init__(self, fmu: Fmu) -> None:
         self._restore = _keep_environment if fmu.is_self_contained else load_library().perilune_restore_floats
-        with contextlib.chdir(Path.cwd()):  # restores it also if loading fails
+        with contextlib.chdir(Path.cwd()):  # restores the folder even if loading fails
             try:
                 self._slave: Slave = (FMU2WatchedSlave if fmu.version == 2 else Fmi3Slave)(
                     guid=fmu.description.guid,
@@ -73,7 +73,7 @@ class Library:
         self.users = 0
 
     def slave(self, instance_name: str) -> Slave:
-        """Return FMPy's object for a further instance, not yet instantiated."""
+        """Return FMPy's object for another instance, which is not instantiated yet."""
         slave = copy.copy(self._slave)
         slave.instanceName = instance_name
         return slave
@@ -98,7 +98,7 @@ def _find_locator(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
     return function
 
 
-_libraries: dict[Path, Library] = {}  # by the folder that the FMU is unpacked into
+_libraries: dict[Path, Library] = {}  # by the folder into which the FMU is unpacked
 
 
 def acquire(fmu: Fmu) -> Library:

@@ -1,4 +1,4 @@
-"""Verdicts on how FMUs are restored to their initial state between simulations."""
+"""Verdicts on the ways to restore FMUs to their initial state between simulations."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ class Renewal(StrEnum):
 
     RESET = "reset"
     INSTANCE = "instance"  # a new instance in the same process
-    PROCESS = "process"  # a new process, which loads the FMU from files as unpacked
-    IRREPRODUCIBLE = "irreproducible"  # depends on something that no process restores, such as the clock
+    PROCESS = "process"  # a new process, which loads the FMU from freshly unpacked files
+    IRREPRODUCIBLE = "irreproducible"  # results depend on something that no process restores, such as the clock
 
 
 @dataclass(frozen=True)
 class ResetVerdict:
-    """Cheapest way that restores an FMU; ``reason`` says why the cheaper ones fail."""
+    """Cheapest way to restore an FMU; ``reason`` states why cheaper ways fail."""
 
     renewal: Renewal
     reason: str = ""
@@ -40,10 +40,10 @@ _verdicts: dict[str, ResetVerdict] = {}  # by the FMUs' digests
 
 
 def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
-    """Return the verdict on an FMU if it is known, else None; Perilune's FMUs reset, as their tests verify."""
+    """Return the verdict on an FMU if it is known, else None. Perilune's FMUs can be reset, as their tests verify."""
     return RESETS if fmu.is_self_contained else _verdicts.get(fmu.digest)
 
 
 def store_verdict(digest: str, verdict: ResetVerdict) -> None:
-    """Store the verdict on the FMU with this SHA-256, found by a simulation or by another process."""
+    """Store a verdict on the FMU with this SHA-256 that was found by a simulation or by another process."""
     _verdicts[digest] = verdict

@@ -1,4 +1,4 @@
-"""Test of an FMU, simulated alone, for the cheapest way that restores it between simulations."""
+"""Test of an FMU, simulated alone, for the cheapest way to restore it between simulations."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ STEPS = 10
 
 
 _trying = threading.Lock()
-_noted: set[str] = set()  # digests of FMUs
+_noted: set[str] = set()  # digests of FMUs with a reported note
 
 
 def reset_verdict(fmu: Fmu) -> ResetVerdict:
     """Return the verdict on an FMU in this process; the first call tests it.
 
-    Here `Renewal.PROCESS` stands for every FMU that a new instance does not restore.
+    In this verdict `Renewal.PROCESS` stands for every FMU that a new instance does not restore.
     """
     with _trying:
         verdict = verdict_in_cache(fmu)
@@ -50,12 +50,12 @@ def reset_verdict(fmu: Fmu) -> ResetVerdict:
 def try_renewals(
     fmu: Fmu, simulated: Callable[[str], None] = lambda digest: None, *, with_reset: bool = True
 ) -> ResetVerdict:
-    """Test a reset, unless ``with_reset`` is false as it is known to fail, then a new instance.
+    """Test a reset (unless ``with_reset`` is false because it is known to fail), then a new instance.
 
-    A first instance is simulated with the declared values. A second is simulated with other parameters and inputs,
-    reset, and simulated with the declared values; if that fails, a third with the declared values. Outputs and
-    parameters must equal those of the first bit for bit, and process and folder must be unchanged. ``simulated`` is
-    called with the SHA-256 of the first instance's outputs and parameters.
+    A first instance is simulated with the declared values. A second instance is simulated with other parameters and
+    inputs, reset, and simulated with the declared values. If the reset fails, a third instance is simulated with the
+    declared values. Outputs and parameters must equal those of the first instance bit for bit, and process and folder
+    must be unchanged. ``simulated`` is called with the SHA-256 of the first instance's outputs and parameters.
     """
     with LOADING, chdir(Path.cwd()):  # restores the folder if the FMU changes it
         before = read_traces(fmu.folder)
@@ -75,11 +75,11 @@ def try_renewals(
 
 @dataclass(frozen=True)
 class _Simulation:
-    """Rows of outputs of a new instance with declared values, then its parameters; or the failure that ended it."""
+    """Output rows of a new instance with declared values, followed by its parameters; or the failure that ended it."""
 
     rows: list[bytes]
     failure: str = ""
-    is_usable: bool = True  # False after a fatal error: no instance may follow (FMI 2.0, fmi2Fatal)
+    is_usable: bool = True  # False after a fatal error, which permits no further instance (FMI 2.0, fmi2Fatal)
 
     @property
     def is_complete(self) -> bool:
@@ -111,7 +111,7 @@ def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
         used = instantiate(fmu, fmu.name)
         try:
             list(_simulate(used, changes))
-        except FMICallException as error:  # fails with these values
+        except FMICallException as error:  # the FMU fails with these values
             _free(used, error)
             continue
         try:
@@ -135,7 +135,7 @@ def _words(error: FMICallException) -> str:
 
 
 def _is_fatal(error: FMICallException) -> bool:
-    """Return True if no instance of the FMU may be used any more (FMI 2.0, fmi2Fatal)."""
+    """Return True if no further instance of the FMU may be used (FMI 2.0, fmi2Fatal)."""
     return not 0 <= error.status < fmi2.fmi2Fatal
 
 
@@ -148,9 +148,9 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
 
 
 def _make_value_sets(fmu: Fmu) -> list[dict[str, Number]]:
-    """Yield sets of values that differ from the declared ones: all Real parameters and inputs, inputs, none.
+    """Return sets of changed values: first for all Real parameters and inputs, then for inputs only, then for none.
 
-    Integers are changed only if there is no Real parameter: they may be sizes, and harmful.
+    Integers are changed only if there is no Real parameter: they may be sizes, and other values harmful.
     """
     settable = [
         variable
@@ -187,7 +187,7 @@ def _choose_other_value(variable: ScalarVariable) -> Number | None:
 def _simulate(instance: Instance, changes: dict[str, Number]) -> Iterator[bytes]:
     """Yield the outputs after initialisation and after every step, then the parameters, as bytes.
 
-    A discarded step is the last. Raises FMICallException if a call fails.
+    A discarded step ends the simulation. Raises FMICallException if a call fails.
     """
     experiment = instance.fmu.description.defaultExperiment
     start, size, tolerance = (

@@ -13,11 +13,11 @@ from ..loop.library import load_library
 
 
 class CallWatch:
-    """Mixin that calls ``after_call`` after every function of the FMU, even one that fails."""
+    """Mixin that calls ``after_call`` after every function of the FMU, even a function that fails."""
 
     after_call: Callable[[], None] | None = None
 
-    def _call(self, name: str, *arguments: Any) -> Any:  # through which FMPy makes all calls
+    def _call(self, name: str, *arguments: Any) -> Any:  # FMPy makes all calls through this method
         try:
             return super()._call(name, *arguments)  # type: ignore[misc]
         finally:
@@ -30,7 +30,7 @@ class FMU2WatchedSlave(CallWatch, fmi2.FMU2Slave):  # type: ignore[misc]  # FMPy
 
 
 class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
-    """Instance of FMI 3.0; ``environment`` is the number that identifies it in its log messages."""
+    """Instance of FMI 3.0, identified by the number ``environment`` in its log messages."""
 
     environment = 0
 
@@ -47,7 +47,7 @@ class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no
             False,  # visible
             True,  # loggingOn
             uses_events,
-            uses_events,  # early return: the caller only has to act before the step's end if events occurred
+            uses_events,  # early return, which is needed only for events
             (fmi3.fmi3ValueReference * 0)(),
             0,
             environment,

@@ -1,4 +1,4 @@
-"""Traces that an FMU leaves in its process and folder, and that later instances would find."""
+"""Traces that an FMU leaves in its process and folder, where later instances would find them."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-BYTECODE = "__pycache__"  # bytecode, which Python writes when sources are imported
+BYTECODE = "__pycache__"  # folder of the bytecode that Python writes when it imports sources
 
 
 @dataclass(frozen=True)
 class Traces:
-    """State of a process and a folder that outlives instances. Compare two of them with `changes_since`."""
+    """State of a process and a folder that outlives freed instances. Compare two states with `changes_since`."""
 
     working_folder: str
     locale: str

@@ -1,4 +1,4 @@
-"""Simulation of one instance alone, call by call, to test its reset; the same steps for FMI 2.0 and FMI 3.0."""
+"""Simulation of a single instance, call by call, to test its reset; the same steps for FMI 2.0 and FMI 3.0."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FMI2_CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "B
 
 
 def begin(instance: Instance, changes: Mapping[str, Number], start: float, tolerance: float | None) -> None:
-    """Initialise with values that replace declared ones. Raises FMICallException if a call fails."""
+    """Initialise with values that replace the declared ones. Raises FMICallException if a call fails."""
     slave = instance.slave
     if isinstance(slave, Fmi3Slave):
         if instance.fmu.sizes:
@@ -36,7 +36,7 @@ def begin(instance: Instance, changes: Mapping[str, Number], start: float, toler
 
 
 def step(instance: Instance, time: float, size: float) -> bool:
-    """Step once; return True if another step may follow. Raises FMICallException if the step fails."""
+    """Perform a step; return True if another step may follow. Raises FMICallException if the step fails."""
     try:
         ended = instance.slave.doStep(time, size)
     except FMICallException as error:
@@ -47,7 +47,7 @@ def step(instance: Instance, time: float, size: float) -> bool:
 
 
 def read(instance: Instance, causality: str) -> bytes:
-    """Return the values of variables, type by type; for unreadable ones the failure."""
+    """Return the values of variables, type by type; for unreadable variables return the failure instead."""
     groups: dict[str, list[ScalarVariable]] = {}
     for variable in instance.fmu.variables.values():
         if variable.causality == causality and variable.type in KINDS:
@@ -71,7 +71,7 @@ def _read(instance: Instance, call: str, group: list[ScalarVariable]) -> bytes:
 
 
 def _names(group: list[ScalarVariable]) -> set[int]:
-    """Return the elements of one variable, each once, although aliases may repeat them."""
+    """Return the elements of a variable, each once, although aliases may repeat them."""
     return {each.index for each in group}
 
 

@@ -1,1 +1,1 @@
-"""Simulation loop in C: its instructions, arrays and library; elementary functions on arrays."""
+"""Simulation loop in C: its instructions, arrays and library; elementary functions of arrays."""

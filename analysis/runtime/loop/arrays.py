@@ -11,27 +11,27 @@ import numpy as np
 
 
 class Program(NamedTuple):
-    """System as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
+    """System as arrays, for i instructions, s slots, p parameter values, c connections and f faults."""
 
     instructions: np.ndarray  # uint64 [i, codes.COLUMNS]
-    reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
-    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n executes section n modulo m
+    reset_end: int  # instructions before this index end a flight and reset the FMUs; fresh instances skip them
+    phases: np.ndarray  # int64 [m + 1], ends of initialisation and m sections; step n executes section n modulo m
     reference: np.ndarray  # uint32 [s], value references
-    initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
+    initial: np.ndarray  # float64 [s], before the first exchange: start values of inputs, NaN for values not known yet
     parameter_reference: np.ndarray  # uint32 [p]
-    tolerance: np.ndarray  # float64, of each component's own solver, NaN where its FMU states none
+    tolerance: np.ndarray  # float64 [components], relative tolerance of the FMU's solver, NaN if the FMU states none
     source: np.ndarray  # int64 [c], slots
     target: np.ndarray  # int64 [c], slots
     factor: np.ndarray  # float64 [c]
     offset: np.ndarray  # float64 [c]
-    table: np.ndarray  # int64 [c, 2], first and count in table_from, table_to
+    table: np.ndarray  # int64 [c, 2], first entry and number of entries in table_from and table_to
     table_from: np.ndarray  # float64
     table_to: np.ndarray  # float64
-    finished_slot: int  # -1: no `finished` connector
+    finished_slot: int  # slot of the connector `finished`; -1 if there is none
     fault_slot: np.ndarray  # int64 [f]
     fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
-    fault_window: np.ndarray  # float64 [f, 2], from and until (s)
-    fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
+    fault_window: np.ndarray  # float64 [f, 2], start and end (s)
+    fault_value: np.ndarray  # float64 [f]; for EXCITE the column of the excitation
     drive_slot: np.ndarray  # int64 [d], inputs driven over time
     drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
 
@@ -47,12 +47,12 @@ class Settings(NamedTuple):
 class Span(NamedTuple):
     """Simulated range of a run. Times in s."""
 
-    reset: bool  # whether the FMUs have flown before
+    reset: bool  # True if the FMUs were simulated before
     start: float
     step: float
-    stop: float  # the stop time passed to FMUs; inf: none
-    first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
-    last: int  # communication point to fly to
+    stop: float  # stop time passed to FMUs; inf: no stop time
+    first: int  # communication point at which to continue with current buffers and FMUs; -1 initialises them
+    last: int  # last communication point to simulate
 
 
 class Recording(NamedTuple):
@@ -60,21 +60,21 @@ class Recording(NamedTuple):
 
     slots: np.ndarray  # int64 [k]
     stride: int
-    record: np.ndarray  # float64 [k, r], what is kept of a slot side by side, since it is looked at slot by slot
+    record: np.ndarray  # float64 [k, r], with the rows of a slot contiguous, since they are read slot by slot
     times: np.ndarray  # float64 [r], s
-    offset: int  # the first row that is written
+    offset: int  # the first row to write
 
 
 class RunGroup(NamedTuple):
     """Inputs and outcomes of n consecutive runs."""
 
     real: np.ndarray  # float64 [n, v], values of parameters
-    real_position: np.ndarray  # int64 [v], their places in `Settings`
+    real_position: np.ndarray  # int64 [v], their indices in `Settings`
     whole: np.ndarray  # int32 [n, w]
     whole_position: np.ndarray  # int64 [w]
-    fault_window: np.ndarray  # float64 [n, f, 2], of the first f faults, from and until (s)
+    fault_window: np.ndarray  # float64 [n, f, 2], start and end (s) of the first f faults
     fault_value: np.ndarray  # float64 [n, f]
-    ends: np.ndarray  # int64 [n], the rows in the record behind each flight
+    ends: np.ndarray  # int64 [n], the row of the record after each flight's last row
     endings: np.ndarray  # int64 [n], first word of the outcome of each flight
 
 
@@ -82,39 +82,39 @@ class Texts(NamedTuple):
     """Exchanged Strings: t texts with their sizes in bytes."""
 
     reference: np.ndarray  # uint32 [t], value references
-    initial: np.ndarray  # uint8 [t, bytes], before anything is exchanged
+    initial: np.ndarray  # uint8 [t, bytes], before the first exchange
     rows: np.ndarray  # uint8 [t, bytes], zero-terminated
-    address: np.ndarray  # uint64 [t], of the rows
-    given: np.ndarray  # uint64 [t], addresses that FMUs gave
+    address: np.ndarray  # uint64 [t], addresses of the rows
+    given: np.ndarray  # uint64 [t], addresses returned by FMUs
 
 
 class Transfers(NamedTuple):
-    """Transfers of slots, parameters or texts to and from FMUs of FMI 3.0; each is one call."""
+    """Transfers of slots, parameters or texts to and from FMUs of FMI 3.0, q in all; each transfer is one call."""
 
     rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
-    reference: np.ndarray  # uint32, value references, one of a whole array
+    reference: np.ndarray  # uint32, value references, a single one for a whole array
     functions: np.ndarray  # uint64 [components, library.FUNCTION_NAMES], addresses
 
 
 class StoredValues(NamedTuple):
     """Values of FMUs of FMI 3.0, stored in their FMI types."""
 
-    sent: np.ndarray  # uint64 [s], each transfer's values contiguous from its first slot on, as last set or read
-    exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
-    flags: np.ndarray  # uint8 [8], what calls return
-    time: np.ndarray  # float64 [2], likewise (s): the last is when an FMU has ended the simulation, or began a step
+    sent: np.ndarray  # uint64 [s], values last set or read, contiguous for each transfer from its first slot on
+    exact: np.ndarray  # uint64 [s], 64-bit integers, which may be rounded in the float64 of their slot
+    flags: np.ndarray  # uint8 [8], flags returned by calls
+    time: np.ndarray  # float64 [2], returned by calls (s); the last is the end set by an FMU, or the start of a step
 
 
 class Fmi3(NamedTuple):
     """Additional arrays of systems with FMUs of FMI 3.0."""
 
     transfers: Transfers
-    start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
+    start: np.ndarray  # uint64 [s], 64-bit integers before the first exchange
     stored: StoredValues
-    given: np.ndarray  # uint64 [p], parameters: each transfer's values side by side from its first word on
-    confirmed: np.ndarray  # uint64 [p], likewise, once they are read back
+    given: np.ndarray  # uint64 [p], parameters to set, contiguous for each transfer from its first word on
+    confirmed: np.ndarray  # uint64 [p], the same parameters as read back
     binaries: Texts
-    sizes: np.ndarray  # uint64 [t], bytes of each Binary
+    sizes: np.ndarray  # uint64 [t], size of each Binary in bytes
     initial_sizes: np.ndarray  # uint64 [t]
 
 
@@ -124,10 +124,10 @@ class Buffers(NamedTuple):
     values: np.ndarray  # float64 [s]
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
-    read_back: Settings  # what the FMUs have of the parameters, once initialised
+    read_back: Settings  # parameters read back from the initialised FMUs
     outcome: np.ndarray  # int64 [6]
     texts: Texts
-    halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
+    halt: np.ndarray  # int64 [1]; another thread sets it to nonzero to end the flight at its next communication point
 
 
 def stored(slots: int) -> StoredValues:
@@ -146,7 +146,7 @@ class Run(NamedTuple):
     recording: Recording
     excitation: np.ndarray  # float64 [r, e], added to the excited slots at the communication points after span.first
     fmi3: Fmi3 | None
-    fused_steps: int  # address of the steps compiled for the system; 0: instructions are interpreted
+    fused_steps: int  # address of the system's compiled steps; 0 if instructions are interpreted
 
     @property
     def has_fmi3(self) -> bool:

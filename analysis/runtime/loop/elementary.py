@@ -1,4 +1,4 @@
-"""Elementary functions on arrays, in the C that FMUs contain, and therefore with the same bits.
+"""Elementary functions of arrays, in the C code that FMUs contain, and therefore with the same bits.
 
 numpy and scipy choose implementations by processor. As in these libraries, undefined values are NaN, and an overflow is
 infinite.
@@ -22,7 +22,7 @@ class Elementary:
         self._name = name
 
     def __call__(self, *arguments: Any) -> Any:
-        """Return the function values, as an array or a double."""
+        """Return the function values: a double, or an array if an argument is an array."""
         doubles = np.broadcast_arrays(*(np.asarray(argument, dtype=float) for argument in arguments))
         columns = [np.ascontiguousarray(column) for column in doubles]
         values = np.empty(doubles[0].shape)

@@ -1,4 +1,4 @@
-"""Library of the loop: compiled from the C in `c`, identified by its content, loaded once in a process."""
+"""Library of the loop: compiled from the C code in `c`, identified by its content, loaded once in a process."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from . import codes
 from .structures import enumerators, structures
 
 MAIN = "library.c"
-KERNEL_MATH = files(export.__name__).joinpath("fmi", "kernel", "kernel_math.h")  # of all FMUs
-FMI = 3  # whose names of platforms tell processors apart
-FOLDER = "loop"  # of a build, a folder for each platform
+KERNEL_MATH = files(export.__name__).joinpath("fmi", "kernel", "kernel_math.h")  # the same file as in all FMUs
+FMI = 3  # its platform names distinguish processors
+FOLDER = "loop"  # in a build folder; contains a folder for each platform
 
 
 @cache
 def load_library() -> ctypes.CDLL:
-    """Load the library, compiling it if none was built from this C. Its functions release the interpreter lock.
+    """Load the library; compile it if none was built from this C code. Its functions release the interpreter lock.
 
     Raises InputError if it has to be compiled and there is no working compiler.
     """
@@ -69,14 +69,14 @@ def build_loop(build: Path, platforms: list[str], *, portable: bool = False) -> 
 
 
 def built_file(build: Path, platform: str) -> Path:
-    """Return the path of the library in a build folder, named by its content. The file need not exist."""
+    """Return the path of the library in a build folder, named by a digest of its content. The file need not exist."""
     extension = PLATFORMS[platform].extension if platform in PLATFORMS else ""
     return build / FOLDER / platform / f"{_digest()}{extension}"
 
 
 def sources() -> dict[str, bytes]:
     """Return the C code of the library by file name."""
-    from .write_elementary import write_elementary  # imports the translator
+    from .write_elementary import write_elementary  # slow, since it imports the translator
 
     written = (file for file in _files() if not file.name.endswith(".py"))
     return {**{file.name: file.read_bytes() for file in written}, "elementary.c": write_elementary().encode()}
@@ -115,7 +115,9 @@ def _compile() -> Path:
 
 
 def _check(library: ctypes.CDLL) -> None:
-    """Compare the declarations in Python and in C. Raises ImportError if they differ, which is a programming error."""
+    """Compare the declarations in Python with those in C. Raises ImportError if they differ, which is a programming
+    error.
+    """
     numbers = enumerators("codes.h") | enumerators("run.h")
     differing = [name for name, number in numbers.items() if getattr(codes, name, None) != number]
     sizes = [ctypes.sizeof(structures()[name]) for name in ("Run", "RunGroup")]

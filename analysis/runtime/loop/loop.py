@@ -1,4 +1,4 @@
-"""Calls of the loop that simulates a system, one at a time."""
+"""Caller of the loop that simulates a system, one run at a time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .structures import Filled
 class Loop:
     """Loop of a simulation; ``under_way`` is locked during a run, even if its caller has given up waiting.
 
-    Unless FMUs are ``self_contained``, the default floating-point environment is restored after each call, however it
+    Unless FMUs are ``self_contained``, the default floating-point environment is restored after each run, however it
     ends.
     """
 
@@ -24,7 +24,7 @@ class Loop:
         self.under_way = threading.Lock()
 
     def fly(self, run: arrays.Run) -> int:
-        """Run once; return the number of recorded rows."""
+        """Execute a run; return the number of recorded rows."""
         with self.under_way:
             self._run.fill(run)
             rows: int = self._library.perilune_fly(ctypes.byref(self._run.memory))
@@ -33,7 +33,7 @@ class Loop:
             return rows
 
     def fly_group(self, run: arrays.Run, flights: arrays.RunGroup) -> int:
-        """Simulate a group of runs, each from its start; return the number of simulated ones."""
+        """Execute a group of runs, each from the start; return the number of executed runs."""
         with self.under_way:
             self._run.fill(run)
             group = Filled("RunGroup")

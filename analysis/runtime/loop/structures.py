@@ -1,7 +1,7 @@
 """Structures of `c/run.h` as ctypes, filled from named arrays and numbers.
 
-The header is the only declaration of their members. A member is filled from the attribute of the same name: a pointer
-with the address of an array, whose dtype is checked; ``NAME_rows`` and ``NAME_columns`` with the sizes of array NAME; a
+Only the header declares their members. A member is filled from the attribute of the same name: a pointer with the
+address of an array, whose dtype is checked; ``NAME_rows`` and ``NAME_columns`` with the dimensions of the array NAME; a
 nested structure member by member.
 """
 
@@ -28,30 +28,32 @@ SCALARS: dict[str, tuple[Any, type[np.generic]]] = {
 STRUCTURE = re.compile(r"^typedef struct \{\n(.*?)^\} (\w+);", re.DOTALL | re.MULTILINE)
 MEMBER = re.compile(r"^    (?:const )?(\w+) (\*?)(\w+);", re.MULTILINE)
 ENUMERATOR = re.compile(r"\b([A-Z]\w*) = (\d+)\b")
-SIZES = {"_rows": 0, "_columns": 1}  # axes of an array
+SIZES = {"_rows": 0, "_columns": 1}  # suffix of a member: axis of the array
 
 
 class Member(NamedTuple):
-    """Member of a structure: the dtype of the array that it points to, or None; the axis whose size it is, or None."""
+    """Member of a structure: the dtype of the array to which it points, or None; and the axis whose length it
+    contains, or None.
+    """
 
     name: str
-    source: str  # attribute from which it is filled
+    source: str  # attribute from which the member is filled
     dtype: Any
     axis: int | None
     is_structure: bool
 
 
 class Filled:
-    """Structure of run.h with the arrays that it points to, which it keeps alive."""
+    """Structure of run.h, with references to its arrays, so that they are not freed."""
 
     def __init__(self, name: str) -> None:
         self.memory = structures()[name]()
         self._sources: dict[str, Any] = {}  # by the path of the member
 
     def fill(self, source: Any) -> None:
-        """Fill all members from the attributes of ``source``, except those that are the same objects as before.
+        """Fill all members from the attributes of ``source``, except attributes that are the same objects as before.
 
-        Raises TypeError for an array with a wrong dtype or one that is not contiguous.
+        Raises TypeError for an array that has a wrong dtype or is not contiguous.
         """
         self._fill(self.memory, source, "")
 
@@ -80,7 +82,7 @@ def _address(array: np.ndarray, dtype: Any, path: str) -> int:
 
 @cache
 def structures() -> dict[str, Any]:
-    """Return a ctypes.Structure for each structure of the header; its ``members`` describes its members in order."""
+    """Return a ctypes.Structure for each structure of the header; its ``members`` describe its members in order."""
     known: dict[str, Any] = {}
     for body, name in STRUCTURE.findall(read_header("run.h")):
         rows = list(_members(body, known))
@@ -91,7 +93,7 @@ def structures() -> dict[str, Any]:
 
 
 def _members(body: str, known: dict[str, Any]) -> Iterator[tuple[Member, Any]]:
-    """Yield the members of a structure with their ctypes."""
+    """Yield the members of a structure, with their ctypes."""
     arrays: set[str] = set()
     for kind, pointer, name in MEMBER.findall(body):
         if pointer:

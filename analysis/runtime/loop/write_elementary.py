@@ -1,4 +1,4 @@
-"""Writes the C code of the elementary functions on arrays, from the functions that FMUs contain."""
+"""Writer of the C code of the elementary functions of arrays, from the functions that FMUs contain."""
 
 from __future__ import annotations
 

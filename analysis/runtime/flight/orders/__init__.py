@@ -1,1 +1,1 @@
-"""Writers of the calls of a component's FMU as instructions, with one interface for FMI 2.0 and FMI 3.0."""
+"""Writers of instructions that call a component's FMU, with one interface for FMI 2.0 and FMI 3.0."""

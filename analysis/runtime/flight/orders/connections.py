@@ -1,4 +1,4 @@
-"""Connections of a system as arrays of the loop, in the order in which values pass over them."""
+"""Connections of a system as arrays of the loop, in the order in which values are transferred."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .slots import Slots
 
 
 class Term(NamedTuple):
-    """Connection, or a further source added to it, as an operand of instructions.
+    """Connection, or a further source added to a connection, as an operand of instructions.
 
-    ``origins`` are the components from which the target's value originates (-1: an input of the system); ``source`` and
+    ``origins`` are the components in which the target's value originates (-1: an input of the system); ``source`` and
     ``target`` are slots.
     """
 
@@ -31,7 +31,7 @@ class Term(NamedTuple):
 
 
 class Connections:
-    """Connections by target component, upstream ones first; the last group has those to system connectors."""
+    """Connections grouped by target component, upstream connections first; the last group is for system connectors."""
 
     def __init__(self, network: Network, exchanged: Exchanged, slots: Slots) -> None:
         self._network = network
@@ -49,7 +49,7 @@ class Connections:
         self._groups = [list(group.values()) for group in groups.values()]
 
     def _chain(self, name: str, group: dict[str, NodeLink]) -> None:
-        """Add the links that lead to a node to ``group``, upstream ones first and each only once."""
+        """Add the links that lead to a node to ``group``, upstream links first and each only once."""
         link = self._network.driver.get(name)
         if link is None or name in group or name in self._passed_parameters:
             return
@@ -58,7 +58,7 @@ class Connections:
         group[name] = link
 
     def terms(self) -> list[list[Term]]:
-        """Return the terms of each group, in the numbering of `arrays`."""
+        """Return the terms of each group, numbered as in `arrays`."""
         return [[term for link in group for term in self._terms(link)] for group in self._groups]
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -102,5 +102,5 @@ class Connections:
 
 
 def _remainder(link: NodeLink) -> list[tuple[float, float]]:
-    """Return the NaN entry that ends a partial table; it tells the loop to pass unlisted values unchanged."""
+    """Return the NaN entry that ends a partial table, with which the loop leaves unlisted values unchanged."""
     return [(math.nan, math.nan)] if link.transformation.is_partial else []

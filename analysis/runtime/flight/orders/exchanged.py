@@ -14,10 +14,10 @@ from .injections import Injection
 class Exchanged:
     """Names of a system's variables by their use in a simulation.
 
-    ``wanted`` names recorded variables (None: all exchanged ones), ``more`` further ones. ``fetched`` are the outputs
-    to get (None: all); ``named`` the variables recorded by request, of any causality; ``other_sources`` variables that
-    are connected as sources but are not outputs; ``passed_parameters`` parameters of systems that signals pass through;
-    ``tuned`` the tunable parameters that are driven over time or have faults.
+    ``requested`` and ``additional`` are as in `Choices`. ``fetched`` contains the outputs to get (None: all), and
+    ``named`` the variables recorded by request, of any causality. ``other_sources`` contains variables that are
+    connected as sources but are no outputs, ``passed_parameters`` parameters of systems through which signals pass, and
+    ``tuned`` tunable parameters that are driven over time or have faults.
     """
 
     def __init__(
@@ -46,12 +46,12 @@ class Exchanged:
         return name in self._network.driver or name in self._network.driven
 
     def is_fetched(self, name: str) -> bool:
-        """Return True if an output is to be read: it is connected, recorded or has a fault."""
+        """Return True if an output is to be read, because it is connected, recorded or has a fault."""
         return self.fetched is None or name in self.fetched
 
 
 def find_tuned(network: Network, faulty: Collection[str]) -> set[str]:
-    """Return the names of tunable parameters that are driven over time or in ``faulty``."""
+    """Return the names of tunable parameters that are driven over time or listed in ``faulty``."""
     tuned = set()
     for name in {*network.driven, *faulty}:
         component, short = split_name(name, network.fmus)

@@ -1,4 +1,6 @@
-"""Instructions for a component of FMI 2.0: calls for ranges of slots, or direct access to memory of Perilune's FMUs."""
+"""Instructions for a component of FMI 2.0: calls for ranges of slots, or direct access to the memory of Perilune's
+FMUs.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,7 @@ from .rows import Callee, InstructionRows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
-# Setter and getter of parameters: Real, Integer (and Enumeration), Boolean, String.
+# Codes that set and read back parameters: Real, Integer (and Enumeration), Boolean, String.
 PARAMETER_CALLS = (
     ((codes.PARAMETERS, "SetReal"), (codes.READ_BACK, "GetReal")),
     ((codes.WHOLE_PARAMETERS, "SetInteger"), (codes.WHOLE_READ_BACK, "GetInteger")),
@@ -25,12 +27,12 @@ PARAMETER_CALLS = (
 class Fmi2Orders:
     """Writer of the calls of one component.
 
-    ``ranges`` [get or set function 0..5] are (first, count) of slots. ``parameter_ranges`` [type] are the first
-    parameter and three counts: of those to set, to set again in initialisation mode, and to read back. ``text_ranges``
-    are those of String inputs and outputs. Parameters are read back ``one_by_one`` if one call does not return all.
-    ``recorded`` are the ranges (function, first slot, count) read only for the record. ``tuned`` are the ranges of
-    parameters that change during simulation, with the first slot of their unchanged values. If ``set_once``, parameters
-    are not set in initialisation mode.
+    ``ranges`` [get or set function 0..5] are the (first, count) of slots, and ``text_ranges`` those of String inputs
+    and outputs. ``parameter_ranges`` [type] contain the first parameter, and the numbers of parameters to set, to set
+    again in initialisation mode, and to read back. Parameters are read back ``one_by_one`` if a single call cannot
+    return all of them. ``recorded`` contains the ranges (function, first slot, count) that are read only to be
+    recorded. ``tuned`` contains the ranges of parameters that change during simulation, with the first slot of their
+    unchanged values. With ``set_once``, parameters are not set in initialisation mode.
     """
 
     def __init__(
@@ -66,7 +68,9 @@ class Fmi2Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs; the instructions from index ``begun`` fill the slots, and direct writes may replace them."""
+        """Set all inputs. The instructions from index ``begun`` on fill the slots; direct writes to memory may replace
+        them.
+        """
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:
@@ -107,7 +111,7 @@ class Fmi2Orders:
             self._rows.call(code, self._component, function, (first, count))
 
     def step(self, count: int) -> None:
-        """Write a step over ``count`` communication steps; 0 stands for one."""
+        """Write a step over ``count`` communication steps; 0 also means one."""
         self._call(codes.STEP, "DoStep", (0, count))
 
     def reset(self) -> None:
@@ -116,7 +120,7 @@ class Fmi2Orders:
         self._call(codes.MODE, "Reset")
 
     def enter_initialization(self) -> None:
-        """Set parameters, enter initialisation mode, and set them again, since some FMUs lose those set before."""
+        """Set parameters, enter initialisation mode, and set parameters again, since some FMUs lose earlier values."""
         self._parameters(1)
         self._call(codes.SETUP, "SetupExperiment")
         self._call(codes.MODE, "EnterInitializationMode")
@@ -167,7 +171,7 @@ class Fmi2Orders:
         self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
 
     def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[SlotRun]:
-        """Return where a range of slots is in the FMU's memory; an empty list during the initialisation."""
+        """Return the places of a range of slots in the FMU's memory; an empty list during initialisation."""
         if not self._rows.between_steps:
             return []
         first, count = stretch

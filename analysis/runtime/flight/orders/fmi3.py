@@ -1,4 +1,4 @@
-"""Instructions for a component of FMI 3.0: transfers of whole variables by type."""
+"""Instructions for a component of FMI 3.0, which transfer complete variables by type."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Fmi3Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs; once the simulation has ``started``, discrete ones in event mode if the component uses it."""
+        """Set all inputs; once the simulation has ``started``, set discrete inputs in event mode if it is used."""
         events = self._transfers.discrete if started and self._transfers.uses_events else []
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))

@@ -15,7 +15,7 @@ REAL_SIZE = 8  # bytes
 
 
 class SlotRun(NamedTuple):
-    """Consecutive slots whose values are contiguous in an FMU's memory, from ``address`` on."""
+    """Consecutive slots with values that are contiguous in an FMU's memory, from ``address`` on."""
 
     address: int
     first: int
@@ -25,9 +25,10 @@ class SlotRun(NamedTuple):
 def runs_in_memory(
     instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[SlotRun]:
-    """Return the contiguous runs of values with these value references (uint32); their slots count from ``first``.
+    """Return the contiguous runs of values with these value references (uint32); their slots are numbered from
+    ``first`` on.
 
-    Returns an empty list if the FMU does not disclose the address of each.
+    The list is empty if the FMU does not disclose the address of every value.
     """
     ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
     runs = []
@@ -42,7 +43,7 @@ def runs_in_memory(
 def with_moves(rows: Sequence[list[int]], runs: Sequence[SlotRun], component: int, instance: int) -> list[list[int]]:
     """Return instructions that write connected values to the slots of these runs and to the FMU's memory.
 
-    Returns an empty list if ``rows`` contain more than plain copies, or do not cover all slots.
+    The list is empty if ``rows`` contain other instructions than plain copies, or do not cover all slots.
     """
     moved = []
     left = sum(run.size for run in runs)

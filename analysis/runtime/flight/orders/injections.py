@@ -9,11 +9,11 @@ from ....options.fault import Fault
 from ...loop import codes
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
-NEVER = (math.inf, math.inf)  # window of a fault that does not act
+NEVER = (math.inf, math.inf)  # window of a fault that never acts
 
 
 class Injection(NamedTuple):
-    """Fault or excitation of a connector, active in the window [from, until) s.
+    """Fault or excitation of a connector, active in the window [from, until) in s.
 
     ``value`` is in the connector's unit; for an excitation it is the number of the column to add.
     """

@@ -1,4 +1,6 @@
-"""Slots of a component of FMI 2.0: variables of one type and direction are contiguous, for one call."""
+"""Slots of a component of FMI 2.0; variables of one type and direction are contiguous, so that one call transfers
+them.
+"""
 
 from __future__ import annotations
 
@@ -21,11 +23,11 @@ GETTERS = (1, 3, 5)  # indices in EXCHANGES
 
 
 class ComponentSlots(NamedTuple):
-    """Slots of the variables of a component.
+    """Slots of a component's variables.
 
-    ``ranges`` [function of EXCHANGES] are first slot and count. ``recorded`` are (function, first slot, count) of
-    variables that are only recorded; ``tuned`` are (function, first slot, count, first slot of the unchanged values) of
-    parameters that change during simulation.
+    ``ranges`` [function of EXCHANGES] are the first slot and the number of slots. ``recorded`` lists (function, first
+    slot, count) of variables that are only recorded. ``tuned`` lists (function, first slot, count, first slot of the
+    unchanged values) of parameters that change during simulation.
     """
 
     ranges: list[Stretch]

@@ -1,4 +1,4 @@
-"""Slots and transfers of a component of FMI 3.0: whole variables, those of one representation contiguous."""
+"""Slots and transfers of a component of FMI 3.0; complete variables, contiguous if their representation is the same."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class TransferPlacing:
         transfers: ComponentTransfers,
         texts: Sequence[Sequence[tuple[Sequence[ScalarVariable], int]]],
     ) -> None:
-        """Complete the transfers of a component whose parameters have been placed.
+        """Complete the transfers of a component with parameters that have been placed before.
 
         ``texts`` are its Strings and Binaries with their first rows, for inputs and for outputs.
         """
@@ -55,7 +55,7 @@ class TransferPlacing:
                 self._add(component, group, is_set=True)
             )
             transfers.bases.append((first, len(group), self._slots.add_bases(component, group)))
-        transfers.discrete += self._add_texts(texts[0])  # after the others, whose numbers must be consecutive
+        transfers.discrete += self._add_texts(texts[0])  # after the numeric transfers, whose rows must be consecutive
         transfers.outputs += [self._add(component, group) for group in group_by_representation(outputs)]
         transfers.outputs += self._add_texts(texts[1])
         named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}

@@ -1,4 +1,4 @@
-"""Collector of instructions, with the injections inserted between them."""
+"""Collector of instructions, which inserts injections between them."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 from ...instances.library import FUNCTION_NAMES
 from ...loop import codes
 
-Stretch = tuple[int, int]  # first and count
+Stretch = tuple[int, int]  # first slot and number of slots
 
 
 class Callee(Protocol):
-    """Instance of an FMU as instructions address it."""
+    """Instance of an FMU, as seen by the writers of instructions."""
 
     @property
     def address(self) -> int:
@@ -28,7 +28,7 @@ class Callee(Protocol):
         """True if calls of the FMU change nothing else in the process."""
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Return the address of these variables if they are contiguous in the FMU's memory, else 0."""
+        """Return the address of variables if they are contiguous in the FMU's memory, else 0."""
 
 
 class Unloaded:
@@ -52,10 +52,10 @@ class InstructionRows:
     def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
         self._self_contained = [instance.is_self_contained for instance in instances]
-        self.between_steps = False  # all FMUs are between steps: their memory may be accessed directly
+        self.between_steps = False  # True if all FMUs are between steps, so that their memory may be accessed directly
         self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
-        self._ended = 0  # earlier instructions belong to other sections
+        self._ended = 0  # number of instructions of earlier sections
 
     def array(self) -> np.ndarray:
         """Return the collected instructions, uint64 [instruction, column]."""
@@ -68,16 +68,16 @@ class InstructionRows:
         self._restore_floats(component)
 
     def begin(self) -> None:
-        """Start a new list."""
+        """Start a new list of instructions."""
         self.rows, self._ended = [], 0
 
     def end_part(self) -> int:
-        """End a section, which is executed separately from the next; return the number of instructions so far."""
+        """End a section, which is executed separately from the next one; return the number of instructions so far."""
         self._ended = len(self.rows)
         return self._ended
 
     def _restore_floats(self, component: int) -> None:
-        """Restore the floating-point environment, once after consecutive calls of a component."""
+        """Restore the floating-point environment, once for several consecutive calls of a component."""
         if not self._self_contained[component]:
             restore = [codes.RESTORE_FLOATS, 0, 0, 0, 0, component, 0]
             if len(self.rows) - 2 >= self._ended and self.rows[-2] == restore:

@@ -1,4 +1,4 @@
-"""Slots of the loop's array of values: their variables and initial values."""
+"""Slots of the loop's array of values, with their variables and initial values."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dataclasses import dataclass, field
 from ...fmi.variable import ScalarVariable
 from ...system.passing.settings import SystemSettings
 
-BASE = " as set"  # suffix for the unchanged value of a parameter that changes during simulation
+BASE = " as set"  # suffix of slots for unchanged values of parameters that change during simulation
 
 
 @dataclass
 class Slots:
     """``numbers`` of slots by name, with their types and units; ``references`` and ``initial`` values by number.
 
-    ``exact`` are the initial values of 64-bit integers, by number. ``unfed`` are elements without a connection, in
-    arrays that are set as a whole. ``bases`` are the slots of the unchanged values of parameters that change during
-    simulation, by (component, variable).
+    ``exact`` contains the initial values of 64-bit integers, by number. ``unfed`` contains unconnected elements of
+    arrays that are set as a whole. ``bases`` contains the slots of the unchanged values of parameters that change
+    during simulation, by (component, variable).
     """
 
     settings: SystemSettings
@@ -49,6 +49,6 @@ class Slots:
         return first
 
     def start(self, component: str, variable: ScalarVariable) -> float:
-        """Return an input's value until its source is known: the value set for it, else its FMU's start."""
+        """Return an input's value before its source is known: the value set for it, else the start value in its FMU."""
         start = self.settings.variables.get((component, variable.name), variable.start or 0.0)
         return float({"true": 1, "false": 0}.get(str(start).lower(), start))

@@ -1,6 +1,6 @@
 """Strings and Binaries that FMUs exchange, in the loop's arrays.
 
-They are not recorded: signals of a result are numbers.
+They are not recorded, because signals of a result are numbers.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one text, including a St
 
 
 class TextSlots:
-    """Positions of the connected texts of one type, by name; those of one component and direction are contiguous.
+    """Positions of the connected texts of one type, by name; texts of one component and direction are contiguous.
 
-    ``ranges`` [component, 0 input or 1 output] are first position and count, ``variables`` [component] [direction] the
-    variables. ``connections`` [component] lists, for each of its inputs, the source component (-1: an input of the
-    system) and both positions.
+    ``ranges`` [component, 0 input or 1 output] contain the first position and the number of positions, and
+    ``variables`` [component] [direction] the variables. ``connections`` [component] lists, for each input of the
+    component, the source component (-1: an input of the system) and the positions of both ends.
     """
 
     def __init__(self, network: Network, settings: SystemSettings, type_name: str = "String") -> None:

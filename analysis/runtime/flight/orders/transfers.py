@@ -21,7 +21,7 @@ NUMBERS = {
     "EnterEventMode": codes.ENTER_EVENT_MODE,
     "UpdateDiscreteStates": codes.UPDATE_DISCRETE_STATES,
     "EnterStepMode": codes.ENTER_STEP_MODE,
-}  # the loop's numbers of functions: it does not import the modules that load them
+}  # numbers of the loop's functions, without importing the modules that load it
 assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.items())
 
 
@@ -29,10 +29,11 @@ assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.i
 class ComponentTransfers:
     """Transfers of a component of FMI 3.0 by use, as row numbers of the table.
 
-    ``discrete`` inputs are set in event mode if the component ``uses_events``. Parameters are set ``before``
-    initialisation mode, ``repeated`` in it and read ``back`` after it, ``structural`` ones in configuration mode.
-    Parameters that change during simulation are in ``discrete`` if events are used, otherwise in ``inputs``; ``bases``
-    are (first slot, count, first slot of their unchanged values).
+    If the component ``uses_events``, inputs in ``discrete`` are set in event mode. ``before`` lists parameters set
+    before initialisation mode, ``repeated`` those set again in it, ``back`` those read back after it, and
+    ``structural`` those set in configuration mode. Parameters that change during simulation are in ``discrete`` if
+    events are used, otherwise in ``inputs``; ``bases`` lists (first slot, count, first slot of the unchanged values)
+    for them.
     """
 
     uses_events: bool = False
@@ -55,7 +56,9 @@ class TransferTable:
         self.references: list[int] = []
 
     def add(self, variables: Sequence[ScalarVariable], first: int) -> int:
-        """Add a transfer of variables of one representation, with elements from ``first`` on; return its number."""
+        """Add a transfer of variables of one representation, with elements numbered from ``first`` on; return its
+        number.
+        """
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]
@@ -68,7 +71,7 @@ class TransferTable:
         return self.rows[transfer][codes.KIND]
 
     def slots(self, transfer: int) -> tuple[int, int]:
-        """Return the first slot of a transfer and their count; (0, 0) for texts, which have no slots."""
+        """Return the first slot and the number of slots of a transfer; (0, 0) for texts, which have no slots."""
         row = self.rows[transfer]
         return (row[codes.FIRST_VALUE], row[codes.VALUES]) if row[codes.KIND] < codes.STRING else (0, 0)
 
@@ -79,7 +82,7 @@ class TransferTable:
 def needs_events(network: Network, component: str) -> bool:
     """Return True if a component supports event mode and has a discrete input that is connected or driven over time.
 
-    Otherwise event mode is not requested, and the FMU handles events within its steps.
+    Event mode is not requested for other components, which handle events within their steps.
     """
     fmu = network.fmus[component]
     return (
@@ -95,7 +98,7 @@ def needs_events(network: Network, component: str) -> bool:
 
 
 def select_arrays(variables: Iterable[ScalarVariable], selected: Collection[str]) -> list[ScalarVariable]:
-    """Return all elements of the variables that are selected by name, entirely or by one element."""
+    """Return all elements of the variables that are selected by name, or by the name of any of their elements."""
     variables = list(variables)
     arrays = {each.array or each.name for each in variables if each.name in selected}
     return [each for each in variables if (each.array or each.name) in arrays]
