@@ -1,1 +1,1 @@
-"""Simulations in other processes: foreign FMUs are instantiated only there."""
+"""Simulations in other processes, the only ones in which foreign FMUs are instantiated."""

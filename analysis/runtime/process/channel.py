@@ -1,4 +1,5 @@
-"""Channels between processes: sockets with pickled orders and requests, and bounded frames for children's answers.
+"""Channels between processes: sockets with pickled orders and requests, and length-limited frames for children's
+answers.
 
 Nothing that a child sends is executed; its frames may be malformed.
 """
@@ -19,7 +20,7 @@ from ....common.collection import no_collection
 from .messages import Answer, Freed, Kind, Refused
 
 LENGTH = struct.Struct("<I")
-FILE_LIMIT = 2  # descriptors with a request
+FILE_LIMIT = 2  # file descriptors with a request
 HEADER = struct.Struct("<cI")
 ANSWER, NUMBERS, LINE = b"A", b"N", b"L"
 LONGEST = {ANSWER: 64 << 20, NUMBERS: 1 << 30, LINE: 64 << 10}  # bytes
@@ -32,11 +33,11 @@ class ChannelError(OSError):
 
 
 class UnreadableError(Exception):
-    """Bytes from a child that are not a valid answer."""
+    """Bytes from a child that are no valid answer."""
 
 
 def pack(content: Any) -> bytes:
-    """Return a pickled system or FMU. A large system has a million objects."""
+    """Return a system or an FMU as a pickle. A large system has a million objects."""
     with no_collection():
         return pickle.dumps(content, pickle.HIGHEST_PROTOCOL)
 
@@ -48,7 +49,7 @@ def unpack(packed: bytes) -> Any:
 
 
 def send_request(channel: socket.socket, request: object, descriptors: Sequence[int] = ()) -> None:
-    """Send a request with its open files. Raises OSError if nobody listens."""
+    """Send a request with its open files. Raises OSError if the receiver does not exist."""
     content = pickle.dumps(request, pickle.HIGHEST_PROTOCOL)
     head = LENGTH.pack(len(content))
     if descriptors:
@@ -59,7 +60,7 @@ def send_request(channel: socket.socket, request: object, descriptors: Sequence[
 
 
 def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
-    """Receive a request and its open files. Raises EOFError when the channel is closed, and ChannelError."""
+    """Receive a request with its open files. Raises EOFError if the channel is closed, and ChannelError."""
     try:
         content, descriptors = _receive_pickle(channel)
     except OSError as error:
@@ -81,7 +82,7 @@ def _receive_pickle(channel: socket.socket) -> tuple[bytes, list[int]]:
 
 
 def _receive_bytes(channel: socket.socket, count: int) -> bytes:
-    """Receive ``count`` bytes. Raises EOFError if the channel closes earlier."""
+    """Receive ``count`` bytes. Raises EOFError if the channel is closed before."""
     content = bytearray(count)
     view = memoryview(content)
     while view:
@@ -115,7 +116,7 @@ def _send_frame(channel: socket.socket, kind: bytes, content: bytes) -> None:
 
 
 def receive_frame(channel: socket.socket) -> tuple[bytes, bytes]:
-    """Receive kind and content of a frame from a child. Raises UnreadableError and EOFError."""
+    """Receive a frame from a child, and return its kind and content. Raises UnreadableError and EOFError."""
     kind, length = HEADER.unpack(_receive_bytes(channel, HEADER.size))
     if length > LONGEST.get(kind, -1):
         raise UnreadableError
@@ -123,7 +124,7 @@ def receive_frame(channel: socket.socket) -> tuple[bytes, bytes]:
 
 
 def read_answer(content: bytes, expected: type[Kind]) -> Kind:
-    """Return an answer of the expected kind. Raises UnreadableError, and InputError if the child raised it."""
+    """Return an answer of the expected kind. Raises UnreadableError, and any InputError that the child raised."""
     try:
         answer = _decoder.decode(content)
     except msgspec.MsgspecError:

@@ -1,6 +1,6 @@
 """Work of a child process: instantiates a system, or tests one FMU, and answers requests until its channel closes.
 
-Foreign FMUs are loaded only here and in the modules imported here.
+Foreign FMUs are loaded only in this module and in modules that it imports.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ from . import messages
 from .channel import ChannelError, receive_request, send_answer, send_line, send_numbers, unpack
 from .shared_recorder import SharedRecorder, open_recorder
 
-SEED = 0  # seed of generators that FMUs do not seed themselves, as C's rand() starts with a fixed one
+SEED = 0  # seed of generators that FMUs do not seed; C's rand() also starts from a fixed seed
 
 
 def main() -> None:
-    """Do the task read from standard input, in a process that was not forked, and exit."""
+    """Do the task read from standard input, and exit; for a process that was not forked."""
     order: messages.SpawnOrder = pickle.load(sys.stdin.buffer)
     end_after(order.parent)
     if sys.platform == "win32":
@@ -51,16 +51,16 @@ def main() -> None:
         assert isinstance(order.channel, int)
         channel = socket.socket(fileno=order.channel)
     subject = unpack(order.content)
-    load_library()  # before limits on calls of FMUs apply
+    load_library()  # before time limits on calls of FMUs apply
     send_answer(channel, messages.Done())
     exit_process(do_task(order.task, subject, channel, order.files))
 
 
 def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Sequence[int]) -> int:
-    """Do a task with a system or an FMU; ``files`` are those of its recorder.
+    """Do a task with a system or an FMU, and return the exit status of the process.
 
-    Returns the exit status of the process. The caller must exit at once: FMUs may have closed descriptors that they did
-    not open.
+    ``files`` are the open files of its recorder. The caller must exit at once: FMUs may have closed descriptors that
+    they did not open.
     """
     if not task.formats:
         leave_messages_unformatted()
@@ -87,10 +87,10 @@ def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Se
 
 
 def _initialise_process(subject: PreparedSystem | Fmu) -> None:
-    """Bring this process to a reproducible state: files of FMUs as unpacked, random number generators seeded.
+    """Bring this process to a reproducible state: freshly unpacked files of FMUs, seeded random number generators.
 
-    Children of one server would share the state of Python's and numpy's generators, those of another would not. Raises
-    InputError if the files cannot be copied.
+    Children of one server would inherit the same state of Python's and numpy's generators, but children of another
+    server would not. Raises InputError if the files cannot be copied.
     """
     fmus = [subject] if isinstance(subject, Fmu) else list(subject.network.fmus.values())
     copies: dict[Path, Path] = {}
@@ -104,7 +104,7 @@ def _initialise_process(subject: PreparedSystem | Fmu) -> None:
 
 
 def _copy_files(fmu: Fmu) -> Path:
-    """Return a folder of this process with a copy of an FMU's unpacked files. Raises InputError."""
+    """Copy an FMU's unpacked files to a folder of this process, and return the folder. Raises InputError."""
     folder = Path(tempfile.gettempdir())
     try:
         return Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp(dir=folder)) / "fmu"))
@@ -117,7 +117,7 @@ def _copy_files(fmu: Fmu) -> Path:
 
 
 class RequestHandler:
-    """Simulation of a child with its recorders and snapshots; executes requests."""
+    """Executes the requests to a child, with its simulation, recorders and snapshots."""
 
     def __init__(
         self, channel: socket.socket, task: messages.SystemTask, prepared: PreparedSystem, files: Sequence[int]
@@ -131,7 +131,7 @@ class RequestHandler:
         self._snapshots: dict[int, Snapshot] = {}
 
     def _write(self, line: str) -> None:
-        with suppress(ChannelError):  # during a call of an FMU: the next answer fails, too
+        with suppress(ChannelError):  # if it fails during a call of an FMU, the next answer fails, too
             send_line(self._channel, line)
 
     def _open_recorder(self, rows: int, files: Sequence[int], name: str) -> SharedRecorder:

@@ -1,6 +1,6 @@
-"""Child processes: forked by a flight server, or spawned where the operating system cannot fork.
+"""Child processes: forked by a flight server, or spawned if the operating system cannot fork.
 
-The server is started for the first simulation that needs a child, and again if it has ended.
+The server is started for the first simulation that needs a child, and again if it has exited.
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ from .restriction import ProcessLimits
 
 PATIENCE = 2.0  # s, time for a server to end
 LOADING = 60.0  # s, time for a spawned child to load its modules
-GRACE = 1.0  # s, time for it to end after closing its channel
+GRACE = 1.0  # s, time for a child to end after its channel is closed
 CAN_FORK = hasattr(os, "fork")
-SAME_HASHES = {"PYTHONHASHSEED": "0"}  # so that Python FMUs iterate over sets in one order, in any process
+SAME_HASHES = {"PYTHONHASHSEED": "0"}  # Python FMUs iterate over sets in the same order in every process
 _lock = threading.RLock()
 _numbers = itertools.count(1)
-Subject = PreparedSystem | Fmu  # subject of a child; the server keeps it as long as it exists in this process
+Subject = PreparedSystem | Fmu  # of a child; the server keeps it while it exists in this process
 
 
 @dataclass(frozen=True)
 class ForkedChild:
-    """Child of a flight server, with this end of its channel."""
+    """Child of a flight server, with this process's end of its channel."""
 
     server: ServerProcess
     number: int
@@ -64,7 +64,7 @@ class ForkedChild:
 
 
 class ServerProcess:
-    """Flight server of this process, which exits with it."""
+    """Flight server of this process, which exits with this process."""
 
     def __init__(self) -> None:
         self._control, theirs = socket.socketpair()
@@ -76,12 +76,12 @@ class ServerProcess:
                 env={**os.environ, **SAME_HASHES},
                 start_new_session=True,
             )
-        self._keys: dict[int, int] = {}  # keys of the subjects that the server has, by identity
-        self._forgotten: deque[int] = deque()  # keys that the server still has to discard
+        self._keys: dict[int, int] = {}  # keys of the server's subjects, by identity
+        self._forgotten: deque[int] = deque()  # keys of subjects that the server has yet to discard
         self.is_running, self._has_served = True, False
 
     def close(self) -> None:
-        """End the server and all its children; a server that never forked is killed, since it may still be loading."""
+        """End the server and all its children; kill a server that never forked, since it may still be loading."""
         self.is_running = False
         if not self._has_served:
             self._process.kill()
@@ -109,7 +109,7 @@ class ServerProcess:
         return ForkedChild(self, number, ours)
 
     def _identify_subject(self, subject: Subject) -> tuple[int, bytes | None]:
-        """Return the key of a subject, and its pickle unless the server already has it."""
+        """Return the key of a subject, and its pickle unless the server already has the subject."""
         identity = id(subject)
         if identity in self._keys:
             return self._keys[identity], None
@@ -131,7 +131,7 @@ class ServerProcess:
 
 
 class SpawnedChild:
-    """Child with a new interpreter, which takes a second to load; same interface as `ForkedChild`."""
+    """Child with a new interpreter, which takes a second to load; its interface is that of `ForkedChild`."""
 
     def __init__(self, subject: Subject, task: messages.Task, folder: str, memory: int, files: Sequence[int]):
         self.channel, theirs = socket.socketpair()
@@ -151,11 +151,11 @@ class SpawnedChild:
                 channel = theirs.share(self._process.pid)
             order = messages.SpawnOrder(os.getpid(), channel, list(files), task, _pack_subject(subject))
             assert self._process.stdin is not None
-            with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
+            with suppress(OSError), self._process.stdin as standard_input:  # the child may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))
         self.channel.settimeout(LOADING)
-        with suppress(OSError, EOFError):  # the first request fails as well
-            receive_frame(self.channel)  # it is loaded: limits on calls of FMUs apply from here on
+        with suppress(OSError, EOFError):  # if this fails, so does the first request
+            receive_frame(self.channel)  # the child is loaded, and time limits on calls of FMUs apply from here on
         self._reader = threading.Thread(
             target=forward_output, args=(self._process.stdout, subject.printers), daemon=True
         )
@@ -180,7 +180,7 @@ class SpawnedChild:
             self._reason = self._reason or ("" if kill else messages.CHANNEL_CLOSED)
             self._process.kill()
             self._process.wait()
-        self._reader.join(GRACE)  # a process that it has started may keep its output open
+        self._reader.join(GRACE)  # its output may remain open in a process that it started
         shutil.rmtree(self._scratch, ignore_errors=True)
         return messages.ChildExit(self._process.returncode, self._reason)
 
@@ -190,7 +190,7 @@ _server: ServerProcess | None = None
 
 
 def start_server() -> ServerProcess:
-    """Return the flight server of this process; after the first call it takes some tenths of a second to load."""
+    """Return the flight server of this process; the first call starts it, and loading takes some tenths of a second."""
     global _server
     with _lock:
         if _server is None or not _server.is_running:
@@ -212,12 +212,12 @@ def begin_child(
 
 
 def _pack_subject(subject: Subject) -> bytes:
-    """Return the pickle of what a child needs of a system or FMU."""
+    """Return the pickle of those parts of a system or FMU that a child needs."""
     return pack(subject.of_flights() if isinstance(subject, PreparedSystem) else subject)
 
 
 def _python_command(program: str) -> list[str]:
-    """Return the command line of a Python process with this process's module path."""
+    """Return the command line of a Python process that has this process's module path."""
     return [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"]
 
 

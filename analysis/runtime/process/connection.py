@@ -1,4 +1,4 @@
-"""Connection to a child: one request and answer at a time, a time limit for each call, and its end as text."""
+"""Connection to a child: one request and answer at a time, a time limit for each call, and the child's end as text."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .channel import ANSWER, FREED, LINE, NUMBERS, UnreadableError, read_answer,
 from .children import Child
 
 POLL_PERIOD = 0.25  # s, between checks of a silent child
-FRAME_TIMEOUT = 10.0  # s, time between the bytes of an answer
+FRAME_TIMEOUT = 10.0  # s, longest time between bytes of an answer
 REPEAT = "simulate again; if memory ran out, with fewer `workers`"
 PATIENCE = 1.5  # s, time for a child to free its instances
 
 
 class ServerEndedError(EndedError):
-    """End of a child together with its flight server, not caused by an FMU."""
+    """End of a child because its flight server ended, not because of an FMU."""
 
 
 class ChildEndedError(Exception):
@@ -38,7 +38,7 @@ class ChildEndedError(Exception):
 
 
 class Watchdog:
-    """Limit (s) on the time without progress; ``measure`` returns a value that changes with every progress."""
+    """Limit (s) on the time without progress; the value returned by ``measure`` changes with every progress."""
 
     def __init__(self, measure: Callable[[], object], limit: float) -> None:
         self._measure, self.limit = measure, limit
@@ -57,7 +57,7 @@ class Watchdog:
 
 
 class ChildConnection:
-    """Connection to a child; ``write`` receives log lines of FMUs. Only `abort` may be called from other threads."""
+    """Connection to a child; ``write`` receives log lines of FMUs. Other threads may only call `abort`."""
 
     def __init__(self, child: Child, write: Callable[[str], None], watchdog: Watchdog) -> None:
         self._child = child
@@ -74,13 +74,13 @@ class ChildConnection:
     def ask(self, request: object, expected: type[messages.Kind], files: Sequence[int] = ()) -> messages.Kind:
         """Send a request and return its answer.
 
-        Raises ChildEndedError, ServerEndedError, and InputError if the child raised it.
+        Raises ChildEndedError, ServerEndedError, and any InputError that the child raised.
         """
         self.send(request, files)
         return self.receive(expected)
 
     def ask_numbers(self, request: object, count: int) -> np.ndarray:
-        """Send a request and return its answer of ``count`` float64 numbers; errors as in `ask`."""
+        """Send a request and return its answer, ``count`` float64 numbers; errors are as in `ask`."""
         self.send(request)
         kind, content = self._receive()
         if kind == NUMBERS and len(content) == 8 * count:
@@ -89,22 +89,22 @@ class ChildConnection:
         raise AssertionError  # `Refused` raises its error
 
     def send(self, request: object, files: Sequence[int] = ()) -> None:
-        """Send a request that has no answer, or whose answer `receive` returns; ignore a child that has exited."""
+        """Send a request without an answer, or with an answer for `receive`; do nothing if the child has exited."""
         with suppress(OSError):
             send_request(self._child.channel, request, files)
 
     def receive(self, expected: type[messages.Kind]) -> messages.Kind:
-        """Return the answer to the last request; errors as in `ask`."""
+        """Return the answer to the last request; errors are as in `ask`."""
         return self._read(*self._receive(), expected)
 
     def abort(self, why: str) -> None:
-        """End the child because a call does not return; wakes the thread that waits for it."""
+        """End the child because a call does not return, and wake the thread that waits for it."""
         self._abort_reason = why
         with suppress(OSError):
-            self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes that thread
+            self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes the waiting thread
 
     def close(self) -> str:
-        """Let the child free its instances within PATIENCE and exit; return a description of any problem, else ""."""
+        """Let the child free its instances within PATIENCE and exit; return the description of a problem, or ""."""
         if not self.is_open:
             return ""
         answer = self._last_answer()
@@ -139,11 +139,11 @@ class ChildConnection:
         return None
 
     def _finish(self, *, kill: bool) -> messages.ChildExit | None:
-        """End the child; return None if it was ended before."""
+        """End the child and return its exit; return None if it was ended before."""
         return None if self._end.detach() is None else self._child.end(kill=kill)
 
     def _receive(self) -> tuple[bytes, bytes]:
-        """Return kind and content of the next frame that is not a log line; write the log lines before it."""
+        """Return kind and content of the next frame that is no log line; write the log lines before it."""
         self._watchdog.start()
         while True:
             try:
@@ -157,7 +157,7 @@ class ChildConnection:
             self._write(content.decode(errors="replace"))
 
     def _next_frame(self) -> tuple[bytes, bytes]:
-        """Wait for a frame. Raises EOFError if the child has ended or has been given up."""
+        """Wait for a frame. Raises EOFError if the child has ended or has been aborted."""
         channel = self._child.channel
         while True:
             is_ready = bool(select.select([channel], [], [], POLL_PERIOD)[0])
@@ -198,7 +198,7 @@ class ChildConnection:
 
 
 def _in_words(status: int) -> str:
-    """Return how a process ended, as text, from the status of a `ChildExit`."""
+    """Return how a process ended, as text, from its `ChildExit` status."""
     if status >= 0:
         return f"with exit status {status if status < 256 else hex(status)}"  # Windows has codes such as 0xc0000005
     try:

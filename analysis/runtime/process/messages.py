@@ -24,9 +24,10 @@ from .restriction import ProcessLimits
 
 @dataclass(frozen=True)
 class SystemTask:
-    """Task to simulate a system. ``log`` is the level of messages; the recorder is for ``rows`` of ``signals``.
+    """Task to simulate a system.
 
-    If ``formats``, messages of FMUs are printf formats, as in FMI 2.0. ``recorder`` is the name of its shared memory.
+    ``log`` is the level of messages, which are printf formats if ``formats`` is true (FMI 2.0). ``signals`` and
+    ``rows`` are the dimensions of the recorder, and ``recorder`` is the name of its shared memory.
     """
 
     selection: Selection
@@ -39,7 +40,9 @@ class SystemTask:
 
 @dataclass(frozen=True)
 class ResetTask:
-    """Task to test how an FMU is restored; ``formats`` as in `SystemTask`, ``with_reset`` as in `try_renewals`."""
+    """Task to test how an FMU can be restored, with ``formats`` as in `SystemTask` and ``with_reset`` as in
+    `try_renewals`.
+    """
 
     formats: bool
     with_reset: bool
@@ -55,7 +58,8 @@ Task = SystemTask | ResetTask
 class Begin:
     """Order to fork a child; its channel and the recorder's file are attached.
 
-    ``content`` is its pickled subject, a system or an FMU; None if the server already has it by its ``key``.
+    ``content`` is the pickle of the child's subject, a system or an FMU, or None if the server already has it by its
+    ``key``.
     """
 
     number: int
@@ -75,7 +79,7 @@ class Forget:
 
 @dataclass(frozen=True)
 class ExitQuery:
-    """Query whether a child has exited; processes that it started may keep its channel open."""
+    """Query whether a child has exited; its channel may remain open in processes that it started."""
 
     number: int
 
@@ -95,11 +99,11 @@ class SpawnOrder:
     ``channel`` and ``files`` are inherited descriptors; on Windows ``channel`` is a shared socket.
     """
 
-    parent: int  # the process with which it ends
+    parent: int  # process with which the child ends
     channel: int | bytes
     files: list[int]
     task: Task
-    content: bytes  # its subject, pickled
+    content: bytes  # pickle of its subject
 
 
 # Reasons why a child was killed, or failed
@@ -123,7 +127,8 @@ class ChildExit:
 
 @dataclass(frozen=True)
 class Simulate:
-    """Request to simulate between two communication points, with values and faults that have changed.
+    """Request to simulate between two communication points, with the values and faults that changed since the last
+    request.
 
     ``recorder`` is the number of one of the child's recorders.
     """
@@ -139,14 +144,14 @@ class Simulate:
 
 @dataclass(frozen=True)
 class StoreVerdicts:
-    """Request to store verdicts on FMUs, by SHA-256; it has no answer."""
+    """Request, without an answer, to store verdicts on FMUs by SHA-256."""
 
     verdicts: dict[str, ResetVerdict]
 
 
 @dataclass(frozen=True)
 class AddRecorder:
-    """Request to add a recorder with ``rows`` rows, whose file is attached, or whose memory has a ``name``."""
+    """Request to add a recorder with ``rows`` rows; its file is attached, or its shared memory has a ``name``."""
 
     number: int
     rows: int
@@ -172,7 +177,7 @@ class TakeSnapshot:
 
 @dataclass(frozen=True)
 class RestoreSnapshot:
-    """Request to restore a snapshot; if there is a ``cell``, with another number in it."""
+    """Request to restore a snapshot and, if there is a ``cell``, set this cell to another number."""
 
     snapshot: int
     cell: int | None
@@ -196,7 +201,7 @@ class Done(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Simulated(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Answer with status, message and number of rows of a simulation."""
+    """Answer with the status, the message and the number of rows of a simulation."""
 
     status: str
     message: str
@@ -230,7 +235,7 @@ class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 class DefaultsSimulated(msgspec.Struct, tag=True, forbid_unknown_fields=True):
     """Answer after an FMU was simulated with its declared values; a `ResetChecked` follows.
 
-    ``digest`` is the SHA-256 of its outputs and parameters.
+    ``digest`` is the SHA-256 of the FMU's outputs and parameters.
     """
 
     digest: str
@@ -244,7 +249,7 @@ class ResetChecked(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Last answer: all instances are freed."""
+    """Last answer, after all instances have been freed."""
 
 
 Answer = Done | Simulated | Refused | CellList | DefaultsSimulated | ResetChecked | Freed

@@ -1,4 +1,4 @@
-"""Printed output of children, passed on to standard error in a limited number of lines that are safe for a terminal."""
+"""Printed output of children, forwarded to standard error in a limited number of lines that are safe for a terminal."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ....common.visible import visible_line
 
 BLOCK = 65536  # bytes read at a time
 LONGEST_LINE = 4096  # bytes
-LINE_LIMIT = 1000  # of a child
-NAME_LIMIT, LONGEST_NAMES = 3, 200  # components, and characters
-OURS = ("perilune", "log")  # prefixes of Perilune's lines, before a colon
+LINE_LIMIT = 1000  # lines of a child
+NAME_LIMIT, LONGEST_NAMES = 3, 200  # number of components, and of characters
+OURS = ("perilune", "log")  # prefixes of Perilune's own lines, before a colon
 
 
 class PrintedLines:
-    """Output of one child, split into lines; ``printers`` are the components that may have printed them.
+    """Output of a child, split into lines; ``printers`` are the components that may have printed them.
 
     Components share standard output, standard error and the C library's buffer, so the source of a line is unknown.
     """
@@ -29,7 +29,7 @@ class PrintedLines:
         self._lines = 0
 
     def add(self, block: bytes) -> None:
-        """Add output, and pass on its complete lines."""
+        """Add output, and forward its complete lines."""
         *lines, self._partial = (self._partial + block).split(b"\n")
         for line in lines:
             self._write(line)
@@ -38,7 +38,7 @@ class PrintedLines:
             self._partial = b""
 
     def finish(self) -> None:
-        """Pass on the last line, and report how many lines were omitted."""
+        """Forward the last line, and report the number of omitted lines."""
         if self._partial:
             self._write(self._partial)
         if self._lines > LINE_LIMIT:
@@ -56,7 +56,7 @@ class PrintedLines:
 
 
 class OutputPipe:
-    """Reading end of the pipe into which a forked child prints; the server reads it between other work."""
+    """Reading end of the pipe into which a forked child prints; the server reads it between other tasks."""
 
     def __init__(self, descriptor: int, printers: Sequence[str]) -> None:
         os.set_blocking(descriptor, False)
@@ -65,7 +65,7 @@ class OutputPipe:
         self._lines = PrintedLines(printers)
 
     def read(self) -> bool:
-        """Pass on the output so far; return True if more may follow."""
+        """Forward the output so far; return True if more may follow."""
         while True:
             try:
                 block = os.read(self.descriptor, BLOCK)
@@ -76,14 +76,14 @@ class OutputPipe:
             self._lines.add(block)
 
     def close(self) -> None:
-        """Close the pipe, and pass on the last line."""
+        """Close the pipe, and forward the last line."""
         self.is_closed = True
         os.close(self.descriptor)
         self._lines.finish()
 
 
 def forward_output(output: IO[bytes], printers: Sequence[str]) -> None:
-    """Pass on the output of a spawned child until it exits."""
+    """Forward the output of a spawned child until it exits."""
     lines = PrintedLines(printers)
     with output:
         while block := os.read(output.fileno(), BLOCK):
@@ -92,7 +92,7 @@ def forward_output(output: IO[bytes], printers: Sequence[str]) -> None:
 
 
 def _label(printers: Sequence[str]) -> str:
-    """Return the prefix of lines: names of components, distinct from any prefix of Perilune's own lines."""
+    """Return the prefix of lines: names of components, distinct from all prefixes of Perilune's own lines."""
     names = visible_line(", ".join(printers[:NAME_LIMIT]), LONGEST_NAMES)
     if len(printers) > NAME_LIMIT:
         names += f" and {len(printers) - NAME_LIMIT} more"

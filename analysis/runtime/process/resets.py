@@ -1,4 +1,4 @@
-"""Ways to restore foreign FMUs between simulations, tested in children, once for each FMU and process."""
+"""Ways to restore foreign FMUs between simulations, tested in children, once in a process for each FMU."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 
 DIFFERS = "two processes simulate it with different results"
-_noted: set[str] = set()  # digests of FMUs
+_noted: set[str] = set()  # digests of FMUs for which a warning was issued
 
 
 class TrialWatch:
-    """Handle by which another thread can end the tests of a system's FMUs."""
+    """Handle with which another thread can end the tests of a system's FMUs."""
 
     def __init__(self) -> None:
         self._connection: ChildConnection | None = None
@@ -33,13 +33,13 @@ class TrialWatch:
         return bool(self._why)
 
     def begin(self, connection: ChildConnection) -> None:
-        """Register the child of a test; it is ended at once if `cancel` was called before."""
+        """Register the child of a test; end it at once if `cancel` was called before."""
         self._connection = connection
         if self._why:
             connection.abort(self._why)
 
     def cancel(self, why: str) -> None:
-        """End the child of the current test, and those of later ones."""
+        """End the child of the current test, and the children of later tests."""
         self._why = why
         if self._connection is not None:
             self._connection.abort(why)
@@ -48,7 +48,8 @@ class TrialWatch:
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
     """Return the verdicts on FMUs that are not self-contained, by SHA-256.
 
-    An FMU whose test fails gets a process for each simulation; this verdict is not stored if ``watch`` was cancelled.
+    An FMU with a failed test gets a new process for each simulation; this verdict is not stored if ``watch`` was
+    cancelled.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
@@ -65,8 +66,8 @@ def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, R
 def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = None) -> ResetVerdict:
     """Return the verdict on how to restore an FMU; the first call tests it in children.
 
-    Raises InputError if the FMU cannot be instantiated, or its process ends before it was simulated with declared
-    values.
+    Raises InputError if the FMU cannot be instantiated, or if its process ends before the simulation with declared
+    values is complete.
     """
     verdict = verdict_in_cache(fmu)
     if verdict is None:
@@ -82,7 +83,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = No
 
 
 def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
-    """Return a note on the cost of restoring a component; None if its reset works."""
+    """Return a note on the cost of restoring a component, or None if its reset works."""
     match verdict.renewal:
         case Renewal.RESET:
             return None
@@ -95,7 +96,7 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
 
 
 def warn_of_processes(prepared: PreparedSystem, cost: float) -> None:
-    """Warn, once for each FMU, that every simulation needs a new process, at a ``cost`` (s) each."""
+    """Warn, once for each FMU, that every simulation needs a new process, which costs ``cost`` seconds."""
     for component, fmu in prepared.network.fmus.items():
         verdict = verdict_in_cache(fmu)
         if verdict is not None and verdict.needs_process and fmu.digest not in _noted:
@@ -114,10 +115,10 @@ class _Trials:
         self._digest = ""  # SHA-256 of the first simulation in a new process
 
     def decide(self) -> ResetVerdict:
-        """Test a reset and a new instance in one process, then whether a second process gives the same results.
+        """Test a reset and a new instance in one process, then test if a second process gives the same results.
 
-        If the process ends after the first simulation of the FMU, the reset fails; if it was started without a reset, a
-        new instance fails as well. Raises ChildEndedError if it ends earlier.
+        If the process ends after the first simulation of the FMU, the reset fails, or, if the process was started
+        without a reset, a new instance fails. Raises ChildEndedError if the process ends earlier.
         """
         verdict = self._try_formats()
         if not verdict.needs_process:
@@ -137,7 +138,7 @@ class _Trials:
         except ChildEndedError as error:
             if error.status != CRASHED:
                 raise
-        self._formats = False  # a format without its arguments may have ended it
+        self._formats = False  # a format without its arguments may have ended the process
         return self._try(with_reset=True)
 
     def _try(self, *, with_reset: bool) -> ResetVerdict:

@@ -1,4 +1,5 @@
-"""Restrictions of a child: its memory, and for foreign FMUs write access, network and other processes.
+"""Restrictions of a child: a memory limit and, with foreign FMUs, limited access to files, network and other
+processes.
 
 Only Linux offers such restrictions without administrator rights: Landlock for files and signals (Linux 5.13 and later),
 seccomp for system calls. Processes that the child starts inherit both. Reading is not restricted.
@@ -29,11 +30,11 @@ O_PATH = 0o10000000
 
 # LANDLOCK_ACCESS_FS_..., by the first version of Landlock that supports them.
 WRITE_FILE = 1 << 1
-CHANGES_FOLDERS = sum(1 << bit for bit in range(4, 13))  # remove and make files, folders, devices, links
+CHANGES_FOLDERS = sum(1 << bit for bit in range(4, 13))  # removal and creation of files, folders, devices, links
 REFER, TRUNCATE, IOCTL_DEV = 1 << 13, 1 << 14, 1 << 15
 FILES = ((1, WRITE_FILE | CHANGES_FOLDERS), (2, REFER), (3, TRUNCATE), (5, IOCTL_DEV))
-BIND_TCP, CONNECT_TCP = 1, 2  # from version 4 on
-SCOPE_ABSTRACT_UNIX_SOCKET, SCOPE_SIGNAL = 1, 2  # from version 6 on
+BIND_TCP, CONNECT_TCP = 1, 2  # from version 4 of Landlock on
+SCOPE_ABSTRACT_UNIX_SOCKET, SCOPE_SIGNAL = 1, 2  # from version 6 of Landlock on
 
 
 @dataclass(frozen=True)
@@ -46,16 +47,17 @@ class Restriction:
 
 @dataclass(frozen=True)
 class ProcessLimits:
-    """Memory limit of a child in bytes, in addition to its server's memory, and its restriction or None."""
+    """Memory limit of a child, in bytes in addition to its server's memory, and its restriction or None."""
 
     memory: int
     restriction: Restriction | None
 
 
 def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
-    """Return the limits of a child with these FMUs; it is restricted only if one is foreign.
+    """Return the limits of a child with these FMUs; only a child with a foreign FMU is restricted.
 
-    If the operating system does not support all restrictions, warns, or raises InputError if the options are strict.
+    If the operating system does not support all restrictions, a warning is issued, or InputError raised if the options
+    are strict.
     """
     memory = round(options.limits["memory"] * GB)
     if all(fmu.is_own for fmu in fmus):
@@ -76,7 +78,7 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
 
 @functools.cache
 def find_missing() -> tuple[str, ...]:
-    """Return, as text, what the operating system lacks to enforce a restriction."""
+    """Return the features that the operating system lacks to enforce a restriction, as text."""
     if sys.platform != "linux":
         return ("only Linux restricts processes",)
     missing = []
@@ -88,7 +90,9 @@ def find_missing() -> tuple[str, ...]:
 
 
 def restrict(restriction: Restriction) -> None:
-    """Restrict this process and all that it starts, irrevocably, as far as `find_missing` allows. Raises OSError."""
+    """Restrict this process and all processes that it starts, irrevocably, as far as `find_missing` allows. Raises
+    OSError.
+    """
     if sys.platform != "linux":
         return
     libc = ctypes.CDLL(None, use_errno=True)

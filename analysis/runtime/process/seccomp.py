@@ -1,4 +1,6 @@
-"""System calls of x86_64, a platform of FMI 2.0, denied to foreign code, and the seccomp filter that denies them."""
+"""System calls of x86_64, a platform of FMI 2.0, that are denied to foreign code, and the seccomp filter that denies
+them.
+"""
 
 from __future__ import annotations
 
@@ -36,12 +38,12 @@ OTHERS = {
     "keyctl": 250,
 }
 PIDFD_SEND_SIGNAL = 424
-# Calls that name a process: positions of arguments, from 0, and what each may be, CALLER this process's number.
-# Threads of this process have numbers that no filter knows: they set themselves, as 0.
+# Calls that name a process: permitted values by position of the argument, from 0. CALLER is this process's number.
+# A filter cannot know the numbers of this process's threads: a thread may change its own settings, as number 0.
 CALLER = "caller"
 ITSELF: Values = (0, CALLER)
 PRIO_PROCESS, IOPRIO_WHO_PROCESS = 0, 1
-SETTINGS: dict[str, Rule] = {  # settings of limits, priority, processors and pages of memory
+SETTINGS: dict[str, Rule] = {  # calls that set limits, priority, processors and pages of memory
     "prlimit64": (302, {0: ITSELF}),
     "setpriority": (141, {0: (PRIO_PROCESS,), 1: ITSELF}),
     "ioprio_set": (251, {0: (IOPRIO_WHO_PROCESS,), 1: ITSELF}),
@@ -52,7 +54,7 @@ SETTINGS: dict[str, Rule] = {  # settings of limits, priority, processors and pa
     "migrate_pages": (256, {0: ITSELF}),
     "move_pages": (279, {0: ITSELF}),
 }
-SIGNALS: dict[str, Rule] = {  # filtered if Landlock does not
+SIGNALS: dict[str, Rule] = {  # filtered unless Landlock restricts signals
     "kill": (62, {0: (CALLER,)}),
     "tkill": (200, {0: (CALLER,)}),
     "tgkill": (234, {0: (CALLER,)}),
@@ -61,7 +63,7 @@ SIGNALS: dict[str, Rule] = {  # filtered if Landlock does not
 }
 
 AUDIT_ARCH_X86_64 = 0xC000003E
-X32 = 0x40000000  # the bit of calls of another interface to the same kernel
+X32 = 0x40000000  # bit of the calls of the x32 ABI
 
 # Instructions of the filter.
 LOAD, IS_EQUAL, IS_AT_LEAST, RETURN = 0x20, 0x15, 0x35, 0x06
@@ -77,7 +79,7 @@ class Filter(ctypes.Structure):
 
 
 def has_seccomp() -> bool:
-    """Return True if the kernel supports filters: a filter at address 0 then fails only because of its address."""
+    """Return True if the kernel supports filters: setting a filter at address 0 then fails because of the address."""
     if platform.machine() != "x86_64":
         return False
     libc = ctypes.CDLL(None, use_errno=True)
@@ -86,7 +88,7 @@ def has_seccomp() -> bool:
 
 
 def filter_calls(libc: ctypes.CDLL, *, network: bool, signals: bool) -> None:
-    """Filter the system calls of this process irrevocably; optionally those for ``network`` and ``signals``.
+    """Filter the system calls of this process irrevocably, on request also calls for ``network`` and ``signals``.
 
     Raises OSError.
     """
@@ -110,7 +112,9 @@ def check_result(result: int) -> int:
 
 
 def _instructions(refused: Sequence[int], rules: Iterable[Rule], process: int) -> list[bytes]:
-    """Return a filter that denies calls of other ABIs, ``refused`` calls, and arguments against ``rules``."""
+    """Return a filter that denies calls of other ABIs, the calls ``refused``, and calls with arguments against
+    ``rules``.
+    """
     code = [
         instruction(LOAD, ARCHITECTURE),
         instruction(IS_EQUAL, AUDIT_ARCH_X86_64, 1, 0),
@@ -129,7 +133,7 @@ def _instructions(refused: Sequence[int], rules: Iterable[Rule], process: int) -
 
 def _argument_code(position: int, values: Values, process: int) -> list[bytes]:
     """Return instructions that deny a call unless its argument is one of ``values``."""
-    # processes and kinds of them are ints, to the kernel too: the lower half, which comes first
+    # only the lower half, which comes first: to the kernel, these arguments are 32-bit ints
     code = [instruction(LOAD, FIRST_ARGUMENT + ARGUMENT_SIZE * position)]
     for left, number in zip(range(len(values), 0, -1), values, strict=True):
         code.append(instruction(IS_EQUAL, process if number == CALLER else int(number), left, 0))

@@ -1,7 +1,7 @@
 """Flight server: a process with everything loaded for a simulation except FMUs, which forks children to simulate.
 
-`children` starts it with a socket to its client process. It exits with that process, as do its children and all
-processes that they start.
+The module `children` starts it with a socket to its client process. When the client exits, so do the server, its
+children and all processes that they started.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ from .restriction import Restriction, restrict
 
 WATCH_PERIOD = 0.1  # s, between checks of the children's memory
 GRACE = 0.2  # s, time for a child to end after closing its channel
-NEAR = 0.9  # share of its memory limit: a child that fails above it has run out of memory
+NEAR = 0.9  # fraction of the memory limit above which a child that fails counts as out of memory
 PR_SET_CHILD_SUBREAPER = 36
 IS_LINUX = sys.platform == "linux"
-RESERVED = 2  # reserved addresses per permitted memory: programs reserve more than they use
+RESERVED = 2  # permitted reserved memory per permitted used memory: programs reserve more than they use
 
 
 @dataclass
 class ServedChild:
-    """Forked child; ``memory`` is its limit in bytes, ``status`` is None until it has exited."""
+    """Forked child; ``memory`` is its limit in bytes, ``status`` is None until it exits."""
 
     pid: int
     output: OutputPipe
@@ -65,7 +65,7 @@ class ServedChild:
         return self.status is not None
 
     def kill(self, reason: str) -> None:
-        """Kill the child; its first ``reason`` is kept."""
+        """Kill the child and note the ``reason``, unless there is an earlier one."""
         self.reason = self.reason or reason
         with suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
@@ -141,7 +141,7 @@ class FlightServer:
         return messages.ChildExit(os.waitstatus_to_exitcode(child.status), child.reason)
 
     def _end_family(self, pid: int) -> None:
-        """Kill the processes that a child left running: its process group, and orphans that this server adopted."""
+        """Kill the processes that a child left running: its process group, and orphans adopted by this server."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(pid, signal.SIGKILL)
         while True:
@@ -190,13 +190,13 @@ def main(control: int) -> None:
 def _run_child(
     order: messages.Begin, subject: Any, descriptors: list[int], output: int, scratch: str, server: int
 ) -> NoReturn:
-    """Do the task of a child that process ``server`` has just forked, and exit."""
+    """Do the task of a child that the process ``server`` has just forked, and exit."""
     status = 70  # an internal error (sysexits.h)
     try:
         end_with_parent(server)
         os.setsid()
         _adopt_orphans()
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a crash writes no file
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a crash writes no core file
         os.dup2(output, 1)
         os.dup2(output, 2)
         _close_all_but({0, 1, 2, *descriptors})
@@ -215,10 +215,10 @@ def _run_child(
 
 
 def _use_scratch(scratch: str, restriction: Restriction | None) -> None:
-    """Use ``scratch`` for temporary files; under a restriction nothing else is writable."""
+    """Use the folder ``scratch`` for temporary files; under a restriction nothing else is writable."""
     for name in ("TMPDIR", "TEMP", "TMP"):
         os.environ[name] = scratch
-    tempfile.tempdir = None  # determined again at its next use
+    tempfile.tempdir = None  # it is determined again at its next use
     if restriction is not None:
         restrict(replace(restriction, writable=(scratch, *restriction.writable)))
 
@@ -236,7 +236,7 @@ def _adopt_orphans() -> None:
 
 
 def _child_processes() -> list[int]:
-    """Return the numbers of this process's children, if the system lists them."""
+    """Return the numbers of this process's children, if the operating system lists them."""
     processes: list[int] = []
     for task in Path("/proc/self/task").glob("*/children"):
         with suppress(OSError):
@@ -247,7 +247,7 @@ def _child_processes() -> list[int]:
 def _limit_addresses(memory: int) -> None:
     """Make allocations fail once this process has reserved ``RESERVED * memory`` more bytes than now.
 
-    This stops a process that grows too fast for the server's periodic checks.
+    This stops a process with memory that grows too fast for the server's periodic checks.
     """
     if IS_LINUX:
         _, hard = resource.getrlimit(resource.RLIMIT_AS)
@@ -261,7 +261,7 @@ def _resident_memory(process: int) -> int:
 
 
 def _pages(process: int, column: int) -> int:
-    """Return a column of /proc/PID/statm in bytes."""
+    """Return a column of /proc/PID/statm, converted to bytes."""
     try:
         return int(Path(f"/proc/{process}/statm").read_text().split()[column]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):

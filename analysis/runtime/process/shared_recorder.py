@@ -1,4 +1,4 @@
-"""Recorder in memory shared by two processes: rows and progress survive the process that wrote them."""
+"""Recorder in memory shared by two processes; its rows and progress survive the process that wrote them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..system.prepared import PreparedSystem
 with suppress(ImportError):  # on Windows
     import fcntl
 
-NUMBER_SIZE = 8  # bytes of every number here
+NUMBER_SIZE = 8  # bytes of every number in the memory
 HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
 F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # from <linux/fcntl.h>
 NAME = "perilune_flight"
@@ -28,8 +28,8 @@ _numbers = itertools.count(1)
 class SharedRecorder(FlightRecorder):
     """Recorder with a fixed number of rows in one block of shared memory: [head, times, record].
 
-    The other process opens it by ``files``, one open file, or on Windows by ``name``. A child may write anything into
-    it.
+    The other process opens it by ``files``, one open file, or on Windows by ``name``. The content is untrusted, since a
+    child may write anything into it.
     """
 
     def __init__(self, memory: mmap.mmap, signals: int, rows: int, files: Sequence[int], name: str) -> None:
@@ -45,10 +45,10 @@ class SharedRecorder(FlightRecorder):
         )
 
     def _allocate(self, signals: int, rows: int) -> None:
-        raise MemoryError  # the parent makes it large enough
+        raise MemoryError  # does not occur: the parent allocates enough rows
 
     def seal(self) -> None:
-        """Seal the file, so that only existing mappings can write."""
+        """Seal the file, so that only existing mappings can write to it."""
         for descriptor in self.files:
             _add_seals(descriptor, F_SEAL_FUTURE_WRITE)
 
@@ -62,7 +62,9 @@ class SharedRecorder(FlightRecorder):
         return self.outcome.tobytes() + self.phase.tobytes()
 
     def count_rows(self, first: int, every: int) -> int:
-        """Return the number of rows recorded by an unfinished simulation from point ``first``, one in ``every``."""
+        """Return the number of rows recorded so far by a simulation from point ``first`` that records every
+        ``every``-th row.
+        """
         return min(max(-(-(self.point - max(first, -1) - 1) // every), 0), self.times.size)
 
     def component_in_phase(self, prepared: PreparedSystem) -> str:
@@ -80,7 +82,7 @@ class SharedRecorder(FlightRecorder):
 
 
 def make_recorder(signals: int, rows: int) -> SharedRecorder:
-    """Return a new recorder. The child cannot shrink it, which would kill its reader by SIGBUS. Raises OSError."""
+    """Return a new recorder. The child cannot shrink it, which would kill its reader with SIGBUS. Raises OSError."""
     if sys.platform == "win32":
         return open_recorder(signals, rows, (), f"{NAME}_{os.getpid()}_{next(_numbers)}")
     descriptor = _open_memory()
@@ -115,13 +117,13 @@ def _open_memory() -> int:
 
 
 def _add_seals(descriptor: int, seals: int) -> None:
-    """Add seals to a file in memory; other files do not support them."""
+    """Add seals to a file in memory; do nothing for other files, which do not support them."""
     if sys.platform == "linux":
         with suppress(OSError):
             fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)
 
 
 def _name_of(prepared: PreparedSystem, number: int) -> str:
-    """Return the name of a component from its number, which the child wrote and may be invalid."""
+    """Return the name of a component from its number, which may be invalid because the child wrote it."""
     names = list(prepared.network.fmus)
     return names[number] if 0 <= number < len(names) else "a component"

@@ -1,4 +1,4 @@
-"""Simulation in a child, with the interface and the exact results of one in this process."""
+"""Simulation in a child, with the interface and exactly the results of a simulation in this process."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ ATTEMPTS = 2  # attempts at a simulation whose server ends
 
 
 class ProcessSimulation(BaseSimulation):
-    """Simulation whose FMU instances are in a child of the flight server.
+    """Simulation with FMU instances in a child of the flight server.
 
-    If its process ends, the flight has the status ``crashed``, ``hung`` or ``out_of_memory``, and the rows recorded so
-    far. A child is reused, but replaced after a failure, since the FMU that failed may have corrupted it. Raises
-    InputError if a child ends outside a simulation.
+    If the child ends, the flight has the status ``crashed``, ``hung`` or ``out_of_memory``, and the rows recorded so
+    far. A child is reused, but it is replaced after a failure, which may have corrupted it. Raises InputError if a
+    child ends outside a simulation.
     """
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
@@ -49,17 +49,17 @@ class ProcessSimulation(BaseSimulation):
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
-        self._announced: deque[tuple[Scenario, int]] = deque()  # sent, with their recorders: running, or waiting
-        self._resets = TrialWatch()  # ends tests that run in another thread
+        self._announced: deque[tuple[Scenario, int]] = deque()  # sent scenarios with numbers of their recorders
+        self._resets = TrialWatch()  # ends tests in another thread
         self._is_halted = False
-        self._renews = True  # False once a reset has ended a child
-        self._needs_processes = False  # True if only a new process is free of effects of an earlier simulation
+        self._renews = True  # False once a child has ended in a reset
+        self._needs_processes = False  # True if earlier simulations affect later ones in the same process
         self._noted: set[str] = set()  # texts of warnings
-        self._formats = True  # formats of messages, which can end a process if arguments are missing
+        self._formats = True  # as in `SystemTask`; formats with missing arguments can end a process
         try:
             self._start()
         except ServerEndedError:
-            self._start()  # a child of another server
+            self._start()  # a child of a new server
 
     @property
     def recorder(self) -> SharedRecorder:  # type: ignore[override]
@@ -121,10 +121,10 @@ class ProcessSimulation(BaseSimulation):
         except ChildEndedError as error:
             self._announced.clear()
             if self.recorder.phase[0] == FmuActivity.RENEWAL and self._renews:
-                self._renews = False  # it happened between two simulations
+                self._renews = False  # the child ended between two simulations
                 self._note("it was terminated and reset", error.how)
                 return self._simulate(scenario)
-            # A format without its arguments may have ended it: the next child takes messages as they are.
+            # A format without its arguments may have ended the child: the next one does not format messages.
             self._formats = not self._formats or error.status != CRASHED
             rows = self.recorder.count_rows(scenario.first, scenario.every)
             return self._flight(rows, error.status, self.process.describe_end(error))
@@ -138,7 +138,7 @@ class ProcessSimulation(BaseSimulation):
         return self._flight(answer.rows, answer.status, answer.message)
 
     def _recall(self) -> None:
-        """Cancel announced simulations: they end at their next communication points."""
+        """Cancel announced simulations, which then end at their next communication points."""
         with suppress(ChildEndedError, ServerEndedError):
             while self._announced:
                 self.process.recorders[self._announced[0][1]].halt[0] = True
@@ -147,14 +147,16 @@ class ProcessSimulation(BaseSimulation):
         self._announced.clear()
 
     def _send(self, scenario: Scenario) -> tuple[Scenario, int]:
-        """Let the child simulate a scenario after the announced ones; return it with its recorder's number."""
+        """Let the child simulate a scenario after the announced ones; return the scenario with the number of its
+        recorder.
+        """
         if scenario.first < 0:
             self._prepare_process()
         after = self._announced[-1][1] if self._announced else self.process.turn
         return scenario, self.process.send(scenario, after, is_halted=self._is_halted)
 
     def _prepare_process(self) -> None:
-        """Replace a child that has ended or must not be reused, and send the new one the verdicts on FMUs."""
+        """Replace a child that has ended or must not be reused, and send the new child the verdicts on FMUs."""
         self._find_verdicts()
         if not self._renews:
             self.process.connection.kill()
@@ -196,14 +198,14 @@ class ProcessSimulation(BaseSimulation):
         return ProcessMemory(self)
 
     def close(self) -> None:
-        """Free the instances and end the child; kill it if it still simulates for an abandoned thread."""
+        """Free the instances and end the child; kill a child that is still simulating for an abandoned thread."""
         if self.recorder.phase[0] == FmuActivity.IDLE and not self._announced:
             self._free()
         else:
             self.process.connection.kill()
 
     def _free(self) -> None:
-        """End the child after its FMUs are terminated and freed; problems there do not fail a simulation."""
+        """End the child after its FMUs are terminated and freed; problems in doing so do not fail a simulation."""
         problem = self.process.connection.close()
         if problem:
             self._note("it was terminated and freed", problem)
@@ -218,7 +220,7 @@ class ProcessSimulation(BaseSimulation):
 
 @dataclass(frozen=True)
 class ProcessSnapshot:
-    """Number of one of the child's snapshots, taken at a communication point."""
+    """Snapshot of a child, by its number and communication point."""
 
     point: int
     number: int

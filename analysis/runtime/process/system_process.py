@@ -1,4 +1,4 @@
-"""Child that simulates one system: messages sent, state that it already has, and shared recorders."""
+"""Child that simulates a system: messages sent to it, state that it already has, and shared recorders."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
 
-RECORDERS = 2  # the caller reads one simulation while the next one runs
+RECORDERS = 2  # one is read by the caller while the next simulation runs
 SEE_LOG = "perilune run --log info shows its messages"
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """Inputs of one simulation, see `BaseSimulation.advance`; ``values`` has all parameters set so far."""
+    """Inputs of a simulation, see `BaseSimulation.advance`; ``values`` contains all parameters set so far."""
 
     first: int
     last: int
@@ -48,7 +48,7 @@ class Scenario:
 class SystemProcess:
     """Child with instances of a system's FMUs, which records ``signals`` signals.
 
-    It starts in parallel, until `wait_until_ready` returns. ``formats`` is as in `SystemTask`.
+    It starts in parallel; `wait_until_ready` waits for it. ``formats`` is as in `SystemTask`.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class SystemProcess:
         self.turn = 0  # number of the current recorder
         self.recorders = [self._make_recorder(rows_between(-1, prepared.steps))]
         self.recorder.enter(FmuActivity.INSTANTIATION)
-        self.last: Scenario | None = None  # the last one sent
+        self.last: Scenario | None = None  # the last scenario that was sent
         self.has_verdicts, self._is_ready = False, False
         self.connection = self._begin(selection, formats=formats)
 
@@ -118,7 +118,7 @@ class SystemProcess:
         self.connection.send(messages.StoreVerdicts(dict(verdicts)))
 
     def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
-        """Send the next scenario; return the number of its recorder, the one that follows ``after``.
+        """Send the next scenario; return the number of its recorder, which is the one that follows ``after``.
 
         Values and faults are sent only if they differ from those sent before.
         """
@@ -138,7 +138,7 @@ class SystemProcess:
         return number
 
     def _next_recorder(self, before: int, rows: int) -> int:
-        """Return the number of the next recorder; it is sent to the child if it is new or had to be enlarged."""
+        """Return the number of the next recorder; send it to the child if it is new or had to be enlarged."""
         number = (before + 1) % RECORDERS
         if number == len(self.recorders) or self.recorders[number].times.size < rows:
             fresh = self._make_recorder(max(rows, self.recorder.times.size))

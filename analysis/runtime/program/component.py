@@ -1,4 +1,4 @@
-"""Interface of a component to the reference loop, and the exceptions by which it ends a simulation."""
+"""Interface of a component to the reference loop, and the exceptions with which it ends a simulation."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ Samples = dict[str, Sample]  # by variable name, with separate array elements
 
 
 class FailedError(Exception):
-    """Error of a component or a connection: the simulation ends with the status ``failed``."""
+    """Error of a component or a connection, which ends the simulation with the status ``failed``."""
 
 
 class NonFiniteError(Exception):
-    """Number that is not finite, or out of range of its target's type: the status is ``nonfinite``."""
+    """Number that is not finite, or out of range of its target's type; ends the simulation with the status
+    ``nonfinite``.
+    """
 
 
 class TerminationError(Exception):
-    """Request of a ``component`` to end the simulation at ``time`` (s): ``terminated``, with one last row."""
+    """Request of a ``component`` to end the simulation at ``time`` (s), with the status ``terminated`` and one last
+    row.
+    """
 
     def __init__(self, component: str, time: float) -> None:
         super().__init__(component)
@@ -31,49 +35,50 @@ REFUSALS = (FailedError, NonFiniteError, FMICallException)
 
 
 class ComponentInstance(ABC):
-    """Instance of an FMU, which manages its own modes; the loop calls these methods in the order of this class.
+    """Instance of an FMU, which manages its own modes.
 
-    Similar interfaces in other masters: `slave`, which libcosim's `algorithm` calls, and `model_instance` of Ecos.
-
-    `initialise` is called once; `set` and `get` in initialisation mode; `settle` once; then `set`, `step` and `get` in
-    every step. A component does not keep the mappings it receives, and returns new ones. A call that the FMU rejects
-    raises FMPy's FMICallException, after which no method is called. The creator of a component terminates and frees its
-    instance.
+    Similar interfaces in other masters are `slave`, which libcosim's `algorithm` calls, and `model_instance` of Ecos.
+    The loop calls the methods in the order of this class: `initialise` once, `set` and `get` in initialisation mode,
+    `settle` once, then `set`, `step` and `get` in every step. A component does not retain the mappings that it
+    receives, and returns new ones. If the FMU rejects a call, FMPy's FMICallException is raised, and no method is
+    called any more. The creator of a component terminates and frees its instance.
     """
 
     @abstractmethod
     def initialise(self, start: float, stop: float) -> None:
         """Set the parameters and enter initialisation mode for a simulation from ``start`` to ``stop`` (s).
 
-        Called for every component before `set` is called for any.
+        This method is called for all components before `set` is called for any of them.
         """
 
     @abstractmethod
     def set(self, values: Mapping[str, Sample]) -> None:
         """Set all inputs that are connected or driven, and parameters that change during simulation.
 
-        Called in initialisation mode, then once before every step: with values at the start of the step for components
-        that step together, at its end for those that follow. Raises NonFiniteError, EndedError.
+        This method is called in initialisation mode, and once before every step: with values at the start of the step
+        for components that step together, with values at its end for components that follow others. Raises
+        NonFiniteError, TerminationError.
         """
 
     @abstractmethod
     def get(self, names: Iterable[str]) -> Samples:
         """Return variables at the time that the component has reached.
 
-        Called in initialisation mode once all inputs are set, then after `settle` and after every step.
+        This method is called in initialisation mode once all inputs are set, after `settle`, and after every step.
         """
 
     @abstractmethod
     def settle(self) -> None:
         """Leave initialisation mode for step mode, through event mode if it is used; check the parameters.
 
-        Called for every component once all initial outputs have been exchanged. Raises FailedError if the FMU did not
-        take a parameter, EndedError.
+        This method is called for all components once all initial outputs have been exchanged. Raises FailedError if the
+        FMU did not accept a parameter, and TerminationError.
         """
 
     @abstractmethod
     def step(self, begin: float, size: float, end: float) -> None:
-        """Advance by ``size`` (s) from ``begin`` to ``end`` (s, both subject to rounding) with the current inputs.
+        """Advance by ``size`` (s) from ``begin`` to ``end`` (s), which are subject to rounding, with the current
+        inputs.
 
-        Raises EndedError, FailedError.
+        Raises TerminationError, FailedError.
         """

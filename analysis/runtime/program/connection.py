@@ -1,4 +1,4 @@
-"""Value of a connection's target, computed from its sources."""
+"""Value at the target of a connection, computed from its sources."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .component import FailedError, Sample
 
 
 def carry(network: Network, link: NodeLink, sample_of: Callable[[Node], Sample]) -> Sample:
-    """Return the value that a connection and the links added to it transfer to their target. Raises FailedError.
+    """Return the value that a connection, with the links added to it, transfers to its target. Raises FailedError.
 
     ``sample_of`` returns the value of a source.
     """
@@ -26,7 +26,7 @@ def transform(network: Network, link: NodeLink, sample: Sample) -> Sample:
     """Return a value after a connection's unit conversion and transformation. Raises FailedError."""
     change = link.transformation
     if change == IDENTITY:
-        return sample  # unchanged: texts, and integers that float64 cannot represent
+        return sample  # texts, and integers that float64 may not represent, stay unchanged
     if not change.table:
         return float(sample) * change.factor + change.offset
     for source, target in numbers(network, link):

@@ -17,9 +17,9 @@ from ..system.schedule import origin
 class Roles:
     """Uses of the variables of a component; all elements of an array of FMI 3.0 have the same use.
 
-    ``inputs`` are inputs, and parameters that change during simulation; ``outputs`` also include other variables
-    connected as sources; ``recorded`` are further variables to read. ``uses_events``: event mode of FMI 3.0 is used,
-    because the FMU supports it and has a discrete input.
+    ``inputs`` are inputs, and parameters that change during simulation. ``outputs`` are outputs, and other variables
+    connected as sources. ``recorded`` are further variables to read. ``uses_events`` is True if event mode of FMI 3.0
+    is used, because the FMU supports it and has a discrete input.
     """
 
     inputs: Sequence[ScalarVariable]
@@ -31,7 +31,8 @@ class Roles:
 class Exchange:
     """Exchanged variables: ``roles`` by component, system ``connectors`` with values, and ``recorded`` signals.
 
-    These are the ``selected`` ones, or if it is None all that are exchanged. Outputs that nothing needs are not read.
+    The ``selected`` signals are recorded, or all exchanged signals if it is None. Outputs that are not needed are not
+    read.
     """
 
     def __init__(
@@ -89,7 +90,7 @@ class Exchange:
         return Roles(inputs, outputs, recorded, has_events and discrete)
 
     def _is_changing(self, component: str, variable: ScalarVariable) -> bool:
-        """Return True if a variable itself is driven, rather than set with other elements of its array."""
+        """Return True if a variable itself is driven, not only other elements of its array."""
         return f"{component}.{variable.name}" in (self._tuned if variable.is_tunable else self._changing)
 
     def _is_fetched(self, variable: ScalarVariable, names: Collection[str]) -> bool:
@@ -98,7 +99,7 @@ class Exchange:
 
 
 def arrays_of(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
-    """Return the variables grouped by array; scalars, as all variables of FMI 2.0 are, form groups of one."""
+    """Return the variables grouped by array; scalars, such as all variables of FMI 2.0, form groups of one."""
     arrays: dict[str, list[ScalarVariable]] = {}
     for each in variables:
         arrays.setdefault(each.array or each.name, []).append(each)

@@ -1,4 +1,4 @@
-"""Component of FMI 3.0, called through FMPy one variable at a time, arrays as a whole."""
+"""Component of FMI 3.0, called through FMPy one variable or array at a time."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Fmi3Component(ComponentInstance):
 
     def __init__(self, name: str, fmu: Fmu, slave: FMU3Slave, starts: Sequence[Start], *, uses_events: bool) -> None:
         self.name, self.fmu, self.slave, self.starts, self.uses_events = name, fmu, slave, starts, uses_events
-        self.steps, self.time = False, 0.0  # whether initialisation mode has been left; time reached (s)
-        self.discrete: Samples = {}  # values in the FMU
+        self.steps, self.time = False, 0.0  # True after initialisation mode; time reached (s)
+        self.discrete: Samples = {}  # discrete values in the FMU
 
     def initialise(self, start: float, stop: float) -> None:
         """See `ComponentInstance.initialise`."""
@@ -41,7 +41,7 @@ class Fmi3Component(ComponentInstance):
     def set(self, values: Mapping[str, Sample]) -> None:
         """See `ComponentInstance.set`.
 
-        Between steps discrete variables are set in event mode, all of them if one changes.
+        Between steps, discrete variables are set in event mode; if one of them changes, all are set.
         """
         arrays = arrays_of(self.fmu.variables[name] for name in values)
         events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]

@@ -10,13 +10,13 @@ from ..fmi.representations import TEXTS
 from ..fmi.variable import ScalarVariable
 from .component import FailedError, NonFiniteError, Sample
 
-LONGEST = {"String": 4095, "Binary": 65536}  # bytes of a text that is passed on
+LONGEST = {"String": 4095, "Binary": 65536}  # largest size of an exchanged text in bytes
 
 
 def as_stored(variable: ScalarVariable, sample: Sample) -> Sample:
     """Return a value converted to its variable's type. Raises NonFiniteError for a number out of range.
 
-    A Float64 may have any value, since its FMU checks it; a Boolean is true unless it is 0.
+    Values of a Float64 are not checked here, since the FMU checks them; a Boolean is true unless it is 0.
     """
     stored = variable.representation
     if variable.type in TEXTS:

@@ -26,7 +26,7 @@ LOOPS = {"sequential": Sequential, "jacobi": Jacobi}
 def fly_reference(
     system: PreparedSystem, faults: Sequence[Fault] = (), selected: Collection[str] | None = None
 ) -> Rows:
-    """Simulate a system once in this process; record the ``selected`` signals, or if None all that are exchanged.
+    """Simulate a system once in this process; record the ``selected`` signals, or all exchanged signals if it is None.
 
     Raises InputError if an FMU cannot be instantiated.
     """

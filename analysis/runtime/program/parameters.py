@@ -1,4 +1,4 @@
-"""Start values of a component: which are set, in which mode, and whether its FMU took them."""
+"""Start values of a component: which values are set, in which mode, and whether the FMU accepted them."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ..system.passing.settings import SystemSettings
 from .component import FailedError, Sample, Samples
 from .exchange import arrays_of
 
-LOSS = 1e-6  # permitted relative loss of a Real in an FMU, by single precision or another unit
+LOSS = 1e-6  # permitted relative error of a Real in an FMU, from single precision or conversion to another unit
 
 
 @dataclass(frozen=True)
 class Start:
     """Variable, or all elements of an array, with the values to set before initialisation mode.
 
-    ``is_structural``: set in configuration mode; ``is_repeated``: set again in initialisation mode, since some FMUs
-    lose values set before; ``is_read_back``: compared afterwards.
+    ``is_structural`` values are set in configuration mode. ``is_repeated`` values are set again in initialisation mode,
+    since some FMUs lose values set before. ``is_read_back`` values are compared afterwards.
     """
 
     variables: Sequence[ScalarVariable]
@@ -31,14 +31,14 @@ class Start:
     is_read_back: bool
 
     def check(self, component: str, actual: Sequence[Sample]) -> None:
-        """Raise FailedError if a value of the FMU differs from the one set."""
+        """Raise FailedError if a value in the FMU differs from the value that was set."""
         for (name, requested), stored in zip(self.values.items(), actual, strict=True):
             if not agrees(requested, stored):
                 raise FailedError(f"{component}.{name} was set to {requested!r}, and its FMU has {stored!r}")
 
 
 def agrees(requested: Sample, stored: Sample) -> bool:
-    """Return True for equal values, Reals within a relative difference of `LOSS`, and two NaNs."""
+    """Return True for equal values, for Reals with a relative difference of at most `LOSS`, and for two NaNs."""
     if not isinstance(requested, float) or not isinstance(stored, float):
         return stored == requested
     both_nan = math.isnan(requested) and math.isnan(stored)
@@ -46,7 +46,7 @@ def agrees(requested: Sample, stored: Sample) -> bool:
 
 
 def start_of(settings: SystemSettings, component: str, variable: ScalarVariable) -> Sample:
-    """Return the value set for a variable, else its FMU's start; integers and texts exactly."""
+    """Return the value set for a variable, else the start value in its FMU; integers and texts are exact."""
     start = settings.variables.get((component, variable.name), variable.start)
     if variable.type == "Binary":
         return bytes.fromhex(str(start or ""))
@@ -59,8 +59,8 @@ def start_of(settings: SystemSettings, component: str, variable: ScalarVariable)
 def find_starts(network: Network, settings: SystemSettings, component: str, tuned: Collection[str]) -> list[Start]:
     """Return the values to set before a simulation; parameters named in ``tuned`` change during it.
 
-    FMI permits setting inputs and variables with initial="exact" in initialisation mode; the FMU computes others from
-    then on, and a connected input is set by its connection.
+    In initialisation mode FMI permits setting inputs and variables with initial="exact"; all other variables are
+    computed by the FMU from then on, and a connected input is set by its connection.
     """
     fmu = network.fmus[component]
     starts = []

@@ -1,7 +1,7 @@
-"""Simulation step by step, written for readability: every executor must produce its rows and status, bit for bit.
+"""Step-by-step simulation, written for readability: every executor must produce its rows and status bit for bit.
 
-Components ``ahead`` step together, with inputs from the start of the step; those ``behind`` step in turn, with inputs
-from its end.
+The components ``ahead`` step together, with inputs from the start of the step. The components ``behind`` then step in
+turn, with inputs from the end of the step.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from .signals import Signals
 
 
 class ReferenceLoop:
-    """Simulation of ``components``, by name; ``signals`` transfers their values and collects the rows."""
+    """Simulation of ``components`` by name; ``signals`` transfers their values and collects the rows."""
 
     ahead: Sequence[str]
     behind: Sequence[str] = ()
-    refusal: Exception | None = None  # the error that ended it
+    refusal: Exception | None = None  # the error that ended the simulation
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         self.system, self.components, self.signals = system, components, signals
@@ -32,7 +32,7 @@ class ReferenceLoop:
                 if point > 0:
                     self.advance(point)
                 for name in self.due(self.ahead, point):
-                    self.set(name)  # for its next step
+                    self.set(name)  # for the component's next step
                 self.signals.record()
                 if self.signals.is_finished:
                     return "finished"
@@ -47,7 +47,9 @@ class ReferenceLoop:
             return "nonfinite" if isinstance(error, NonFiniteError) else "failed"
 
     def initialise(self) -> None:
-        """Initialise the components, each after those that it reads; inputs from later ones have start values."""
+        """Initialise the components, each after the components that it reads; inputs from later ones have start
+        values.
+        """
         for component in self.components.values():
             component.initialise(self.system.start, self.system.start + self.system.steps * self.system.step)
         order = self.system.schedule.initial_order
@@ -57,7 +59,7 @@ class ReferenceLoop:
         for component in self.components.values():
             component.settle()
         for name in self.components:
-            self.get(name)  # again: there are FMUs that compute outputs only when they leave initialisation mode
+            self.get(name)  # again, because some FMUs compute outputs only when they leave initialisation mode
 
     def advance(self, point: int) -> None:
         """Step to communication point number ``point``."""
@@ -71,7 +73,7 @@ class ReferenceLoop:
             self.get(name)
 
     def due(self, names: Sequence[str], point: int) -> list[str]:
-        """Return the components whose step, of one or more communication steps, ends at ``point``."""
+        """Return those of the components whose step, over one or more communication steps, ends at ``point``."""
         return [name for name in names if point % self.system.periods.get(name, 1) == 0]
 
     def step(self, name: str, point: int) -> None:
@@ -86,7 +88,7 @@ class ReferenceLoop:
 
 
 class Sequential(ReferenceLoop):
-    """Sequential algorithm: FMUs without direct feedthrough are ahead; the others follow those that they read."""
+    """Sequential algorithm: FMUs without direct feedthrough step ahead; the others follow the FMUs that they read."""
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         super().__init__(system, components, signals)
@@ -94,7 +96,7 @@ class Sequential(ReferenceLoop):
 
 
 class Jacobi(ReferenceLoop):
-    """Jacobi's algorithm: all FMUs are ahead, and read the others' outputs from the start of the step."""
+    """Jacobi's algorithm: all FMUs step ahead, with the outputs of other FMUs at the start of the step."""
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         super().__init__(system, components, signals)

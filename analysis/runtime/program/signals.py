@@ -1,4 +1,4 @@
-"""Values exchanged between components and recorded, by name."""
+"""Values that components exchange and that are recorded, by name."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .parameters import start_of
 
 
 class Signals:
-    """``values`` of connectors and variables after faults; ``rows`` of the recorded ones at ``times`` (s).
+    """``values`` of connectors and variables after faults, and recorded ``rows`` by signal at ``times`` (s).
 
     Faults are evaluated at ``time`` (s). Inputs over time have one value for the initialisation, then one for every
     communication point.
@@ -29,7 +29,7 @@ class Signals:
         self._exchange, self._faults = exchange, faults
         self.time = system.start
         self._drive_row = 0
-        self._starts = {  # values of inputs before their source is known, and of parameters without a change
+        self._starts = {  # values of inputs before their sources are known, and unchanged values of parameters
             f"{component}.{each.name}": start_of(system.settings, component, each)
             for component, roles in exchange.roles.items()
             for each in roles.inputs
@@ -60,7 +60,7 @@ class Signals:
         return [each.name for each in (*roles.outputs, *(roles.recorded if settled else ()))]
 
     def take(self, component: str, values: Mapping[str, Sample]) -> None:
-        """Store values read from a component. Raises NonFiniteError, FailedError for invalid outputs."""
+        """Store values read from a component. Raises NonFiniteError and FailedError for invalid outputs."""
         for each in self._exchange.roles[component].outputs:
             check_output(each, values[each.name])
         for variable, sample in values.items():
@@ -68,7 +68,7 @@ class Signals:
             self.values[name] = self._faults.apply(name, sample, self.time)
 
     def record(self, *, carries: bool = False) -> None:
-        """Add a row; with ``carries``, connected inputs are updated to this time although they are not set."""
+        """Add a row; with ``carries``, update the values of connected inputs to this time without setting them."""
         for component, roles in self._exchange.roles.items() if carries else ():
             for each in roles.inputs:
                 if f"{component}.{each.name}" in self._network.driver:
@@ -99,7 +99,9 @@ class Signals:
         return all(each is None or each in known for each in origins)
 
     def _source(self, node: Node) -> Sample:
-        """Return the value of a connection's source: an output, or a system connector's value from its own source."""
+        """Return the value of a connection's source: an output, or a system connector's value from that connector's
+        source.
+        """
         link = self._network.driver.get(node.name)
         if node.component is not None:
             return self.values[node.name]

@@ -13,7 +13,7 @@ MOST_ROUNDS = 1000  # event iterations, and successive steps that do not advance
 def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:
     """Bring a component from event mode to step mode once its discrete states at a time (s) have settled.
 
-    Raises EndedError if it ends the simulation, FailedError if its states do not settle.
+    Raises TerminationError if the component ends the simulation, FailedError if its states do not settle.
     """
     for _ in range(MOST_ROUNDS):
         needs_update, wants_end, *_ = slave.updateDiscreteStates()
@@ -26,10 +26,10 @@ def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:
 
 
 def step_to(name: str, slave: FMU3Slave, begin: float, size: float, end: float, *, uses_events: bool) -> None:
-    """Step to the end (s), continuing from each time at which the FMU returns early; handle events when they occur.
+    """Step to the end (s); continue from each time at which the FMU returns early, and handle events when they occur.
 
-    Raises EndedError if the FMU ends the simulation, FailedError if it does not advance or returns a time outside the
-    step.
+    Raises TerminationError if the FMU ends the simulation, FailedError if it does not advance or returns a time outside
+    the step.
     """
     time, rounds = begin, 0
     while rounds <= MOST_ROUNDS:

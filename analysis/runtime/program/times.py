@@ -7,10 +7,10 @@ OF_A_TIME = 2.0**-50
 
 
 def tolerance_of(begin: float, end: float) -> float:
-    """Return the tolerance (s) within which a time counts as inside a step, or as its end."""
+    """Return the tolerance (s) within which a time counts as inside a step, or as the end of the step."""
     return OF_A_STEP * (end - begin) + OF_A_TIME * max(abs(begin), abs(end))
 
 
 def is_within(time: float, begin: float, end: float) -> bool:
-    """Return True if a time (s) is in a step, up to rounding; False for NaN."""
+    """Return True if a time (s) is inside a step, up to rounding; False for NaN."""
     return begin - tolerance_of(begin, end) <= time <= end + tolerance_of(begin, end)
