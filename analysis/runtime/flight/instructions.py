@@ -199,8 +199,8 @@ def write_renewal(
 ) -> dict[int, np.ndarray]:
     """Write instructions that update inputs after a system's inputs or faulty parameters changed between two steps.
 
-    The instructions are returned by component, for the components that step in section ``part`` with inputs from the
-    start of the step. Other arguments are those of `write_instructions`.
+    The instructions are returned by component, for the components that step in the next section (number ``part``) with
+    inputs from the start of the step. Other arguments are those of `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):

@@ -17,12 +17,12 @@ TOKEN = re.compile(
     re.DOTALL,
 )
 MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-JOINED = re.compile(r"(\w+)##")  # the constant part of a name that a macro joins
-USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # the other part, the first argument of a macro
+JOINED = re.compile(r"(\w+)##")  # prefix to which a macro joins its argument, forming a name
+USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # first argument of a macro, joined to that prefix
 RESERVED = re.compile(r"_[_A-Z]")
 WRAPPER = '#include "fmi2_wrapper.h"'
 INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # types without functions, which the unit does not contain
-NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # the parts of the wrapper for an instance and its steps
+NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # replaces the wrapper: an instance and its steps
 
 OFFSETS = """
 /* The offset of a variable in an instance, by its value reference. */
@@ -78,7 +78,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
 
 
 def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], included: set[str]) -> str:
-    """Return the text with each of its own headers inserted once; collect standard headers in ``headers``."""
+    """Return the text with each header of the FMU inserted once; collect standard headers in ``headers``."""
 
     def put(include: re.Match[str]) -> str:
         file = INSTEAD.get(include[2], include[2])

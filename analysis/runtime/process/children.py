@@ -212,7 +212,7 @@ def begin_child(
 
 
 def _pack_subject(subject: Subject) -> bytes:
-    """Return the pickle of those parts of a system or FMU that a child needs."""
+    """Return the pickle of what a child needs from a system or an FMU."""
     return pack(subject.of_flights() if isinstance(subject, PreparedSystem) else subject)
 
 

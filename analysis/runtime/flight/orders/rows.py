@@ -14,7 +14,7 @@ Stretch = tuple[int, int]  # first slot and number of slots
 
 
 class Callee(Protocol):
-    """Instance of an FMU, as seen by the writers of instructions."""
+    """Interface to an FMU's instance for the writers of instructions."""
 
     @property
     def address(self) -> int:
