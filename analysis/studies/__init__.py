@@ -1,1 +1,1 @@
-"""Studies that choose their own draws: rare failures, worst cases, sensitivities."""
+"""Studies that choose their own samples: rare failures, worst cases, sensitivities."""

@@ -1,6 +1,6 @@
 """Space of a campaign's draws, as independent standard normal variables and as a box.
 
-Each distribution defines its own coordinates (``distributions.py``).
+The coordinates of each distribution are defined in ``distributions.py``.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ..campaigns.draws.declared import Columns, Continuous, Draw
 
 
 class DrawSpace:
-    """Space of a campaign's draws: random ones span it, ``held`` ones have one value everywhere.
+    """Space of a campaign's draws, spanned by the random draws; draws in ``held`` have one value everywhere.
 
     Choices and grids have no coordinates and must be held. Latin hypercubes and Sobol sequences are treated as the
-    uniform draws that they sample. Raises InputError for a draw that must be held but is not, for a held value that is
-    not drawn or cannot be, and if nothing varies, unless ``may_be_empty``. ``size`` is the number of coordinates, in
-    the order of the file; jointly normal values have one along each axis of their covariance with an eigenvalue above
-    0.
+    uniform draws that they sample. ``size`` is the number of coordinates, in the order of the file; jointly normal
+    values have one coordinate along each axis of their covariance with an eigenvalue above 0. Raises InputError for a
+    draw that must be held but is not, for a held value that the campaign does not draw or cannot take, and, unless
+    ``may_be_empty``, if no draw varies.
     """
 
     def __init__(
@@ -54,33 +54,34 @@ class DrawSpace:
         return [name for names, _ in self._varied for name in names]
 
     def from_normals(self, u: np.ndarray) -> Columns:
-        """Return draws (columns by name) for independent standard normal values ``u`` (points, size)."""
+        """Return draws, as columns by name, for independent standard normal values ``u`` (points, size)."""
         return self._columns(len(u), [distribution.from_normals(block) for distribution, block in self._blocks(u)])
 
     def to_normals(self, columns: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Return the inverse of `from_normals`, infinite at an interval's ends."""
+        """Return standard normal values of draws, the inverse of `from_normals`; infinite at an interval's ends."""
         return np.column_stack(
             [distribution.to_normals([columns[name] for name in names]) for names, distribution in self._varied]
         )
 
     def from_box(self, points: np.ndarray, sigmas: float) -> Columns:
-        """Return draws for ``points`` (points, size) of the unit cube, the box of intervals and ``sigmas``.
+        """Return draws for ``points`` (points, size) of the unit cube, which represents the box.
 
-        Normal draws are within ``sigmas`` standard deviations, jointly normal ones along the axes of their covariance.
+        The box consists of the intervals of bounded draws and of ``sigmas`` standard deviations of normal draws, along
+        the axes of the covariance for jointly normal draws.
         """
         blocks = self._blocks(points)
         return self._columns(len(points), [distribution.from_box(block, sigmas) for distribution, block in blocks])
 
     def to_box(self, columns: Mapping[str, np.ndarray], sigmas: float) -> np.ndarray:
-        """Return the inverse of `from_box`; draws outside the box have coordinates below 0 or above 1."""
+        """Return coordinates for draws, the inverse of `from_box`; outside the box they are below 0 or above 1."""
         return np.column_stack(
             [distribution.to_box([columns[name] for name in names], sigmas) for names, distribution in self._varied]
         )
 
     def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
-        """Return minimum and maximum in the box of `from_box` of each draw that varies.
+        """Return the minimum and maximum, in the box of `from_box`, of each draw that varies.
 
-        Jointly normal values do not reach them together: the box is along the axes of their covariance.
+        Jointly normal values do not reach their limits together, since the box is along the axes of their covariance.
         """
         return {
             name: ends
@@ -89,7 +90,7 @@ class DrawSpace:
         }
 
     def _blocks(self, points: np.ndarray) -> list[tuple[Continuous, np.ndarray]]:
-        """Return the distribution of each draw that varies, with its coordinates."""
+        """Return the distribution of each draw that varies, with the range of its coordinates."""
         distributions = [distribution for _, distribution in self._varied]
         ends = np.cumsum([distribution.size for distribution in distributions])
         return list(zip(distributions, np.split(points, ends, axis=1)[:-1], strict=True))

@@ -1,7 +1,7 @@
-"""Failure as a number: the signed distance of a trial from it, derived from an expression that is true for failures.
+"""Failure as a number: the signed distance of a trial from failure, derived from an expression that is true on failure.
 
-``a > b`` becomes the margin a - b, ``and`` the least of two margins, ``or`` the largest, ``not`` the margin of the
-opposite. A trial has failed if its margin is 0 or more; larger is worse.
+``a > b`` becomes the margin a - b, ``and`` the smaller of two margins, ``or`` the larger, ``not`` the margin of the
+opposite condition. A trial has failed if its margin is 0 or more; larger is worse.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..campaigns.definition.campaign import Campaign
 from ..campaigns.definition.expressions import Expression, Where
 
 Margin = Callable[[Mapping[str, np.ndarray]], np.ndarray]
-NEVER = -np.nextafter(0.0, 1.0)  # margin of a strict comparison of equals: just below failure
+NEVER = -np.nextafter(0.0, 1.0)  # margin of a strict comparison of equal numbers: just below failure
 OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.GtE,
     ast.LtE: ast.Gt,
@@ -28,10 +28,10 @@ OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
 
 
 class Failure:
-    """Condition for a trial to fail, with a margin.
+    """Failure condition of a trial, with its margin.
 
-    ``names`` are metrics, drawn and derived values. A trial in which one of them is not finite is a failure with the
-    margin inf; so is one with a non-finite metric in its success expression.
+    ``names`` are metrics, drawn and derived values. A trial in which one of these is not finite, or a metric in the
+    success expression is not finite, is a failure with the margin inf.
     """
 
     def __init__(self, expression: Expression) -> None:
@@ -55,7 +55,7 @@ class Failure:
 
 
 def failure_of(campaign: Campaign, text: str | None) -> Failure:
-    """Return the failure of an expression over metrics and draws, by default that the campaign's success is missed.
+    """Return the failure defined by an expression over metrics and draws, by default lack of success.
 
     Raises InputError.
     """
@@ -88,7 +88,7 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
 
 
 def _join_limit_states(margins: list[Margin], either: bool) -> Margin:
-    """Return the margin that one of several conditions is true (``either``), or all of them."""
+    """Return the margin of a condition that one (``either``) or all of several conditions are true."""
     join = np.maximum if either else np.minimum
     return lambda values: join.reduce(np.broadcast_arrays(*(margin(values) for margin in margins)))
 

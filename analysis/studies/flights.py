@@ -1,4 +1,4 @@
-"""Simulation of samples by persistent workers, for any number of calls of a study."""
+"""Simulation of samples by persistent workers, for repeated calls by a study."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from .noise import make_samples, noise_of
 class SampleFlights:
     """Simulator of chosen samples of one variant of a campaign. A context manager, since it holds workers.
 
-    ``first`` are samples with which everything is checked before any simulation; ``noise_trial`` is the campaign's
+    ``first`` are samples with which the campaign is checked before any simulation; ``noise_trial`` is the campaign's
     trial whose random streams all simulations use, None if they are passed to `fly`. ``workers`` (default: one per
     processor) does not change results. Raises InputError, also for a campaign that compares FMUs.
     """
@@ -89,13 +89,13 @@ def _fly(
 
 
 def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
-    """Return a plan with the draws ``first``, without the campaign's records, groups and scatter plots."""
+    """Return the campaign's plan with the draws ``first``, without records, groups and scatter plots."""
     campaign = replace(plan.campaign, record=TrialRecord(), group=None, scatters=())
     return replace(plan, campaign=campaign).of_samples(SuppliedDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
 class StudyProvenance(CampaignProvenance, total=False):
-    """Inputs that determine the numbers of a study; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
+    """Inputs that determine the numbers of a study; ``loop``, ``point`` and ``time`` (s) are set for margins."""
 
     loop: str
     point: str

@@ -1,4 +1,4 @@
-"""Simulations of a study, a row each, and the base class of all studies' results."""
+"""Table of a study's simulations, and the base class of the results of all studies."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class FlightDocument(TypedDict):
 
 
 class Flown:
-    """Simulations in order: ``points`` (flights, dimensions) with their objective ``values`` (flights,).
+    """Simulations of a study in order: ``points`` (flights, dimensions) and objective ``values`` (flights,).
 
     ``draws`` and ``metrics`` are columns (flights,) by name. Drawn values precede derived ones.
     """
@@ -72,15 +72,12 @@ class Flown:
         }
 
     def draw_table(self, names: list[str], rows: np.ndarray) -> pyarrow.Table:
-        """Return the draws of some simulations as input for `perilune batch --draws`; ``names`` are the campaign's.
-
-        The table includes columns for their random streams.
-        """
+        """Return draws by ``names`` and random streams of some simulations as input for `perilune batch --draws`."""
         streams = filter(_is_stream, self.draws)
         return pyarrow.table({name: self.draws[name][rows] for name in (*names, *streams)})
 
     def streams(self, row: int) -> dict[str, int]:
-        """Return, by component, the trials whose random streams one simulation used; `ALL` stands for the others."""
+        """Return, by component, the trial whose random streams one simulation used; `ALL`: all other components."""
         columns = ((stream_component(name), column) for name, column in self.draws.items())
         return {component: int(column[row]) for component, column in columns if component is not None}
 
@@ -100,11 +97,12 @@ class StudyCommands(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StudyResult:
-    """Base class of studies' results: the ``space`` of draws, and all simulations in ``flown``.
+    """Base class of the results of studies: the ``space`` of draws, and all simulations in ``flown``.
 
-    ``facts`` are the inputs that determine the numbers, ``noise`` the random numbers that components generate,
-    ``units`` those of draws and metrics by name. ``commands`` return the command lines that repeat simulations, if
-    known. ``lost`` counts simulations that crashed, hung or ran out of memory: they are failures.
+    ``facts`` are the inputs that determine the numbers, ``noise`` describes the random numbers that components
+    generate, and ``units`` contains the units of draws and metrics by name. ``commands``, if known, returns the command
+    lines that repeat simulations. ``lost`` counts simulations that crashed, hung or ran out of memory; these are
+    failures.
     """
 
     DRAWS: ClassVar[str]  # file of draws for repeated simulations
@@ -123,7 +121,7 @@ class StudyResult:
 
     @property
     def conditions(self) -> str:
-        """Conditions of the numbers, to end a line with; "" if there are none."""
+        """Conditions under which the numbers hold, as the end of a line; "" if there are none."""
         words = lost_words(self.lost)
         lost = f", {words} of {self.flights} simulations counted as failures" if words else ""
         return f"{conditions(self.noise, self.space.held)}{lost}"
@@ -133,7 +131,7 @@ class StudyResult:
         return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the result as JSON; ``folder`` is where it has been written, or None."""
+        """Return the result as JSON; ``folder`` is the folder to which it has been written, or None."""
         raise NotImplementedError
 
     def _condition_document(self) -> dict[str, object]:

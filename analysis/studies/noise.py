@@ -1,4 +1,4 @@
-"""Random numbers that components generate: random in a study, or those of one trial in all simulations."""
+"""Noise that components generate: random in a study, or the same as in one trial for all simulations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..runtime.system.prepared import PreparedSystem
 
 @dataclass(frozen=True)
 class Noise:
-    """Noise of ``components``: random if ``trial`` is None, else that of one trial of the campaign."""
+    """Noise of ``components``: random if ``trial`` is None, otherwise the noise of this trial of the campaign."""
 
     components: tuple[str, ...]
     trial: int | None
@@ -29,7 +29,7 @@ class Noise:
 
     @property
     def is_held(self) -> bool:
-        """True if there is noise, and all simulations have that of one trial."""
+        """True if there is noise, and all simulations have the noise of one trial."""
         return self.trial is not None and bool(self.components)
 
     def of(self, streams: np.ndarray) -> Streams:
@@ -37,11 +37,11 @@ class Noise:
         return dict(zip(self.sources, streams.T, strict=True))
 
     def same(self, streams: np.ndarray) -> Streams:
-        """Return random streams by component if all sources have the noise of the same ``trials`` (flights,)."""
+        """Return random streams by component, the same of ``trials`` (flights,) for all sources of a simulation."""
         return dict.fromkeys(self.sources, streams)
 
     def document(self) -> dict[str, object]:
-        """Return the entry in JSON results; ``noise_trial`` is None for random noise, or none."""
+        """Return the entry of JSON results; ``noise_trial`` is None for random noise, and without noise."""
         return {
             "noise_trial": self.trial if self.components else None,
             "noise": {"components": list(self.components), "random": bool(self.sources)},
@@ -56,14 +56,14 @@ def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
 
 
 def make_samples(columns: Columns, streams: Streams, noise: Noise) -> SuppliedDraws:
-    """Return draws with the random streams of all sources, or with those of one trial if the noise is not random."""
+    """Return draws with random streams: of all sources if the noise is random, otherwise of one trial."""
     if noise.sources:
         return SuppliedDraws(columns, streams)
     return SuppliedDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})
 
 
 def conditions(noise: Noise, held: Mapping[str, float]) -> str:
-    """Return the conditions of a result, to end a line with; "" if there are none."""
+    """Return the conditions under which a result holds, as the end of a line; "" if there are none."""
     texts = [f"{name} = {value:g}" for name, value in held.items()]
     texts += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
     return f", conditional on {' and '.join(texts)}" if texts else ""

@@ -1,4 +1,4 @@
-"""Sensitivity of a campaign's metrics to its draws: Sobol' indices from a dedicated plan, and their result."""
+"""Sensitivity of a campaign's metrics to its draws: Sobol' indices from dedicated simulations, and the result."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def sensitivity(
 
 
 def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict[str, str]:
-    """Return the reasons for numbers without indices."""
+    """Return the reason for each number without indices."""
     reasons = {}
     for name, values in metrics.items():
         if name not in with_indices:
@@ -94,7 +94,7 @@ def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict
 
 
 class InputIndices(TypedDict, total=False):
-    """Indices of an input with their intervals, and its rank correlation, which noise lacks since it has no order."""
+    """Indices of an input with their intervals, and its rank correlation (None for noise, which has no order)."""
 
     rank: float | None
     first: float
@@ -105,10 +105,10 @@ class InputIndices(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SensitivityOutcome(StudyResult):
-    """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None if no number has any.
+    """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None if no number has indices.
 
-    ``without_indices`` has the reason for each number without indices. ``ranks`` are rank correlations by number and
-    draw; random noise, an additional input, has none.
+    ``without_indices`` has the reason for each number without indices. ``ranks`` contains rank correlations by number
+    and draw; noise has no rank correlation.
     """
 
     DRAWS = "draws.parquet"
@@ -121,7 +121,7 @@ class SensitivityOutcome(StudyResult):
 
     @property
     def inputs(self) -> list[str]:
-        """Varied inputs: the draws and, if it is random, the noise as one input."""
+        """Varied inputs: the draws and, if random, the noise as one input."""
         return [*self.space.names, *([NOISE] if self.noise.sources else [])]
 
     def of(self, number: str) -> dict[str, InputIndices]:
@@ -139,7 +139,7 @@ class SensitivityOutcome(StudyResult):
         return rows
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the result as JSON; ``folder`` is where it has been written, or None."""
+        """Return the result as JSON; ``folder`` is the folder to which it has been written, or None."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,

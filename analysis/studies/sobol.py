@@ -1,6 +1,7 @@
-"""Sobol' indices: the share of a number's variance that each draw causes, alone and with others.
+"""Sobol' indices: the share of a number's variance that each draw causes, alone and with other draws.
 
-Saltelli et al. (2010): two independent tables of draws, A and B, and for each draw A with that column of B.
+Source: Saltelli et al. (2010), with two independent tables of draws, A and B, and for each draw a copy of A with this
+column of B.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ class Indices:
     """First-order and total indices (numbers, inputs) with their 95 % intervals (2, numbers, inputs), low and high.
 
     The first-order index is the share of the variance that an input causes by itself; the total index is the share that
-    remains if all other inputs are known.
+    remains if all other inputs are fixed.
     """
 
     first: np.ndarray
@@ -45,8 +46,9 @@ def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> 
 def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
     """Return points and streams with noise as an additional input: `saltelli_points`, and A with the streams of B.
 
-    Points are (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),) a number for each noise
-    realisation: row i of A has i, row i of B has base + i, and every mix has those of A except the last, which has B's.
+    Points have the shape (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),). A stream is the
+    number of a noise realisation: row i of A has i, row i of B has base + i, and every mixed table has the streams of
+    A, except the last, which has the streams of B.
     """
     first = np.arange(base)
     mixes = len(points) // base - 2
@@ -56,7 +58,7 @@ def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
-    """Compute indices of numbers (numbers, base * (inputs + 2)) at points of `saltelli_points` or `with_noise`.
+    """Compute the indices of ``numbers`` (numbers, base * (inputs + 2)) at points of `saltelli_points` or `with_noise`.
 
     Numbers must be finite and not constant. The intervals are percentiles of a bootstrap over the rows.
     """
@@ -93,8 +95,9 @@ def rank_correlations(
 ) -> dict[str, dict[str, float | None]]:
     """Return Spearman's rho of every metric with every draw, by metric and draw; all columns are (trials,).
 
-    Trials count if the metric is not nan: infinite values have the largest ranks. None if either has a single value, or
-    fewer than `FEWEST` trials count. Random deviations are about 1 / sqrt(trials).
+    Only trials in which the metric is not nan count; infinite values have the largest ranks. A correlation is None if
+    metric or draw has a single value, or fewer than `FEWEST` trials count. Its standard error is about 1 /
+    sqrt(trials).
     """
     return {metric: {name: _rho(draw, values) for name, draw in draws.items()} for metric, values in metrics.items()}
 

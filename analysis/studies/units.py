@@ -1,4 +1,4 @@
-"""Units of the numbers in a study: draws that are parameters, metrics, and expressions with the unit of one metric."""
+"""Units of the numbers in a study: drawn parameters, metrics, and expressions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SUMS = (ast.Add, ast.Sub)
 
 
 def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance) -> dict[str, str]:
-    """Return the units of draws and metrics by name, for those that have one."""
+    """Return the units of draws and metrics by name, without those of unknown unit."""
     units: dict[str, str | None] = {name: fact["unit"] for name, fact in facts["metrics"].items()}
     for draw in space.campaign.draws:
         for name in draw.names:
@@ -28,7 +28,7 @@ def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance)
 
 
 def unit_of_expression(expression: Expression, units: Mapping[str, str]) -> str:
-    """Return the unit of a sum or comparison of numbers and values of one unit, else ""."""
+    """Return the unit of a sum or comparison of numbers and values of one unit, otherwise ""."""
     candidates = {units.get(name, "") for name in expression.names}
     return candidates.pop() if len(candidates) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
 

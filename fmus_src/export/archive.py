@@ -1,4 +1,4 @@
-"""Zip archives with reproducible bytes, which depend on their content alone."""
+"""Zip archives whose bytes depend only on the archived files."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def read_zip(path: Path) -> dict[str, bytes]:
 
 
 def content_guid(files: dict[str, bytes]) -> str:
-    """Return the GUID of an FMU: a hash of its files, including modelDescription.xml without GUID."""
+    """Return the GUID of an FMU: a hash of its files, including modelDescription.xml without the GUID."""
     digest = hashlib.sha256()
     for name in sorted(files):
         digest.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())

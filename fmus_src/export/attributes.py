@@ -18,9 +18,9 @@ class UndeclaredError(ValueError):
 def check_attributes(block_class: type[Block]) -> None:
     """Reject methods that use self.NAME where NAME is neither a variable nor an attribute of the class.
 
-    Its value would be lost at a reset, in a saved state and between the trials of a batch. The translator makes the
-    same check for kernels; this one is for Python-only blocks and for uses without translation. Raises
-    `UndeclaredError`.
+    The value of an undeclared attribute would be lost at a reset, in a saved state and between the trials of a batch.
+    The translator makes the same check for kernels; this check is for Python-only blocks and for uses without
+    translation. Raises `UndeclaredError`.
     """
     for owner in block_class.__mro__:
         if owner in (Block, object):

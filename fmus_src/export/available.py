@@ -1,4 +1,4 @@
-"""Available FMUs by name: this repository's, those in the working folder's ``build/fmus``, and a system's.
+"""Available FMUs by name: of this repository, in ``build/fmus`` of the working folder, and of a system.
 
 An installed package contains its native FMUs. Its Python FMUs, whose loader would triple the size of the package, are
 built on first use, which needs no compiler, and stored in the cache folder.
@@ -24,8 +24,8 @@ from .pythonfmu_fmu import build_python_fmu
 def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None = None) -> Path | None:
     """Return the FMU of this name in the first available flavour, or None.
 
-    For a user's system, the user's FMUs take precedence: those of the working folder, then those of the parent folder
-    of ``system``. Otherwise the repository's take precedence, so that its systems are the same in every folder.
+    For a user's system, the user's FMUs take precedence: first in the working folder, then in the parent folder of
+    ``system``. Otherwise the repository's FMUs take precedence, so that its systems are the same in every folder.
     """
     flavours = tuple(flavours)
     users, shipped = _users_files(name, flavours, system), _list_shipped(name, flavours)
@@ -45,7 +45,7 @@ def _users_files(name: str, flavours: Iterable[str], system: Path | None) -> Ite
 
 
 def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
-    """Yield the repository's FMUs; a Python FMU of an installed package is built when it is used."""
+    """Yield the repository's FMUs; a Python FMU of an installed package is built on first use."""
     for flavour in flavours:
         shipped = shipped_fmu(name, flavour)
         if names_file(shipped):

@@ -1,6 +1,6 @@
-"""The Python files that a block needs, packed under a name that contains the hash of their content.
+"""Python files that a block needs, packed under a package name that contains the hash of their content.
 
-An FMU always runs the code with which it was built: two versions of a block can be loaded in one process, as their
+An FMU always runs the code with which it was built: two versions of a block can be loaded in one process, since their
 packages have different names.
 """
 
@@ -66,8 +66,8 @@ def closure_of(block_class: type[Block]) -> Closure:
     """Return the import closure of a block within the source package, as files.
 
     A user's block is packed with the modules of its folder that it imports, and every block with its ``data``. Raises
-    `ClosureError` for imports other than these, the source package, the standard library, numpy and the block's
-    ``requires``, and for missing data.
+    `ClosureError` for missing data, and for imports other than these modules, the source package, the standard library,
+    numpy and the block's ``requires``.
     """
     files: dict[str, bytes] = {}
     module = sys.modules[block_class.__module__]
@@ -129,7 +129,7 @@ def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> N
 
 
 def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
-    """Return the module that an import names, and those of ``names`` that are its submodules."""
+    """Return the module that an import names, and its submodules among ``names``."""
     module = [part for part in parts if part]
     folder = SOURCE_ROOT.joinpath(*module)
     inner = [

@@ -26,7 +26,7 @@ class CompilationFailed(RuntimeError):  # noqa: N818
 
 @dataclass(frozen=True)
 class Platform:
-    """Platform of an FMI version: library extension and zig's target names; several make a universal library."""
+    """Platform of an FMI version: library extension and zig's target names, several for a universal library."""
 
     fmi: int
     extension: str
@@ -53,7 +53,7 @@ def platforms_of(fmi: int) -> list[str]:
 
 
 def local_platform(fmi: int = 2) -> str | None:
-    """Return FMI's name of this process's platform; None if it has no name or no compiler."""
+    """Return the FMI name of this process's platform; None if it has no name or no compiler."""
     machine = host.machine().lower()
     system = {"linux": "linux", "win32": "windows", "darwin": "darwin"}.get(sys.platform)
     if fmi == 3:
@@ -70,9 +70,9 @@ def local_platform(fmi: int = 2) -> str | None:
 def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
     """Return the compiler commands of a platform, without flags, one for each processor of its libraries.
 
-    The system's ``cc`` serves the platform of this process; zig, from the PyPI package ziglang, serves all. With
-    ``portable`` zig is used everywhere; its linux64 libraries run on any Linux with glibc 2.17 or later. Raises
-    `CompilerMissing`, and ValueError for an unknown platform.
+    The system's ``cc`` compiles for the platform of this process; zig, from the PyPI package ziglang, compiles for all
+    platforms. With ``portable`` zig is always used; its linux64 libraries run on any Linux with glibc 2.17 or later.
+    Raises `CompilerMissing`, and ValueError for an unknown platform.
     """
     if platform not in PLATFORMS:
         raise ValueError(f"platform {platform!r} is unknown; give one of {', '.join(PLATFORMS)}")
@@ -88,7 +88,7 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
 
 
 def compiled_here() -> list[str]:
-    """Return FMI 2.0's name of this machine's platform if a compiler is available, else an empty result."""
+    """Return the FMI 2.0 name of this machine's platform if a compiler is available, otherwise an empty tuple."""
     local = local_platform()
     try:
         return [local] if local is not None and compilers_for(local) else []
@@ -99,7 +99,7 @@ def compiled_here() -> list[str]:
 def available_platforms(fmi: int = 2) -> list[str]:
     """Return the usual platforms for which a compiler is available.
 
-    FMI 2.0: linux64 and win64 with zig, else the local platform. FMI 3.0: all with zig, else the local platform.
+    With zig these are linux64 and win64 for FMI 2.0, and all platforms for FMI 3.0; otherwise only the local platform.
     """
     platforms = []
     for platform in USUAL[fmi]:

@@ -1,4 +1,4 @@
-"""Universal Mach-O libraries: libraries for several processors in one file, from which macOS loads the right one.
+"""Universal Mach-O libraries: libraries for several processors in one file, of which macOS loads the matching one.
 
 Apple's `lipo` does the same but runs on macOS only. Format: Apple, mach-o/fat.h.
 """

@@ -1,4 +1,4 @@
-"""GUID of a block's native FMU derived from its Python FMU, which identifies the block in both flavours."""
+"""GUID of a block's native FMU, derived from its Python FMU to identify the block in both flavours."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from .native_fmu import native_guid
 def guid_of_module(block_name: str, module: str) -> str | None:
     """Return the GUID of a block's native FMU, a hash of its C and its description.
 
-    ``module`` is the script of the Python FMU, whose name ends with the hash of its sources. Returns None if these
-    differ from the present block of this name, or if the block has no native form.
+    ``module`` is the name of the script of the Python FMU, which ends with the hash of its sources. Returns None if
+    these sources differ from the present block of this name, or if the block has no native form.
     """
     block = catalogue().get(block_name)
     if block is None or block.python_only or module != f"{block_name}_{closure_of(block).digest[:16]}":

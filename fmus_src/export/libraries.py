@@ -18,7 +18,7 @@ from .fat_binary import fat_binary
 
 @cache
 def _identity(command: tuple[str, ...]) -> str:
-    """Return command and version of a compiler for the cache key."""
+    """Return the command and the version of a compiler, for the cache key."""
     with tempfile.TemporaryDirectory() as folder:  # zig leaves a file in its working folder
         version = _output([*command, "--version"], folder)
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
@@ -26,7 +26,7 @@ def _identity(command: tuple[str, ...]) -> str:
 
 @cache
 def _processor(command: tuple[str, ...]) -> str:
-    """Return the compiler's name of this processor for the cache key, as the cache may be shared."""
+    """Return the compiler's name of this processor, for the key of a cache that machines may share."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "empty.c").touch()
         return _output([*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"], folder)
@@ -50,9 +50,7 @@ def _run(command: list[str], folder: str | Path, is_needed: Callable[[], bool] =
 def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
-    """Build the shared library of ``main`` like `library_files`, with the libraries for several processors in one
-    file.
-    """
+    """Build the shared library of ``main`` like `library_files`, as one file also for several processors."""
     libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
     return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
 
@@ -67,12 +65,11 @@ def library_files(
     flags: Sequence[str] = FLAGS,
     is_needed: Callable[[], bool] = lambda: True,
 ) -> list[Path]:
-    """Build the shared libraries of the source file ``main`` for each processor of a platform, in the folder
-    ``cache``.
+    """Build the shared library of the source file ``main`` in ``cache`` for each processor of a platform.
 
-    ``sources`` contains all files by name, ``flags`` the compiler flags. The libraries depend only on these and the
-    compiler, not on time or folder. A damaged library in the cache is compiled again; a temporary file is used if the
-    cache cannot be written. The compiler is terminated when ``is_needed`` returns False. Raises `CompilerMissing`,
+    ``sources`` contains all files by name, ``flags`` the compiler flags. The libraries depend only on sources, flags
+    and compiler, not on time or folder. A damaged library in the cache is compiled again; a temporary file is used if
+    the cache cannot be written. The compiler is terminated when ``is_needed`` returns False. Raises `CompilerMissing`,
     `CompilationFailed`, and OSError if no file can be written.
     """
     commands = compilers_for(platform, portable)

@@ -25,9 +25,7 @@ C_FILES = Path(__file__).parent / "fmi"
 
 
 def wrapper_files(fmi: int, model: str = "block") -> list[Path]:
-    """Return the C files around a model, a block or a ``system``, for an FMI version: common files and those of the
-    version.
-    """
+    """Return the C wrapper of a block or a ``system`` for an FMI version: common files and files of the version."""
     folders = ("instance", "kernel", model, f"fmi{fmi}")
     return [path for folder in folders for path in sorted((C_FILES / folder).iterdir())]
 
@@ -49,7 +47,7 @@ def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[st
 
 
 def native_guid(block_class: type[Block], fmi: int = 2) -> str:
-    """Return the GUID of a block's native FMU, FMI 3.0's instantiation token: a hash of its sources and description."""
+    """Return the GUID (FMI 3.0: instantiation token) of a block's native FMU: a hash of sources and description."""
     return content_guid(_files(block_class, "", fmi))
 
 
@@ -64,7 +62,7 @@ def build_native_fmu(
 ) -> Path:
     """Build the native FMU of a block at ``path``; two builds on one machine are byte-identical.
 
-    ``fmi`` is 2 or 3, and ``platforms`` are names of that version. Compiled libraries are cached in the folder
+    ``fmi`` is 2 or 3, and ``platforms`` are platform names of that version. Compiled libraries are cached in the folder
     ``cache``, so an unchanged block is not compiled again. With ``portable`` zig compiles even if the system has a
     compiler. Raises `SubsetError`, `CompilerMissing` and `CompilationFailed`, and ValueError for a block that this
     version of FMI cannot describe.

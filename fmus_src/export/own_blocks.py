@@ -15,7 +15,7 @@ from .pythonfmu_fmu import build_python_fmu
 
 
 def defines(path: Path) -> list[str]:
-    """Return the FMU names of all classes that a file defines, blocks and others, without importing it."""
+    """Return the FMU names of all classes that a file defines, whether blocks or not, without importing it."""
     try:
         tree = ast.parse(path.read_bytes())
     except (OSError, SyntaxError, ValueError):
@@ -39,7 +39,7 @@ def build_own_blocks(
     portable: bool = False,
     fmi: int = 2,
 ) -> list[Path]:
-    """Build the blocks of a file, or ``only`` one by its FMU name, as ``folder``/FLAVOUR/NAME.fmu; return the paths.
+    """Build all blocks of a file, or ``only`` the named one, as ``folder``/FLAVOUR/NAME.fmu; return the paths.
 
     FMUs of FMI 3.0 are built to ``folder``/fmi3. Python-only blocks have no native form and are omitted there. Raises
     ValueError for errors in the file, `CompilerMissing` and `CompilationFailed`.

@@ -80,7 +80,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
 
 
 def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str, bytes]:
-    """Return the files of the FMU that pythonfmu's builder makes of script and closure.
+    """Return the files of the FMU that pythonfmu's builder creates from script and closure.
 
     The builder imports the script; sys.path and sys.modules are restored afterwards. Its zip contains dates, so only
     the content is used.

@@ -1,4 +1,4 @@
-"""Bridge inside a pythonfmu FMU, from FMI calls to a block's life cycle."""
+"""Bridge from FMI calls to a block's life cycle, inside a pythonfmu FMU."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..runtime import BlockInstance
 
 
 def keep_source(package: str) -> None:
-    """Cache the source lines of a package for tracebacks, as the folder it was imported from may disappear."""
+    """Cache the source lines of a package for tracebacks, since the folder of its modules may disappear."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None) if name.startswith(f"{package}.") else None
         if file is not None and file not in linecache.cache:
@@ -29,7 +29,7 @@ class BlockSlave(Fmi2Slave):
     """FMI 2.0 slave around one block; the FMU's script names the block.
 
     Values are accessed by reference directly in the block, without pythonfmu's registered variables;
-    modelDescription.xml is written from the block's declaration at build time. A failing step logs its traceback and
+    modelDescription.xml is written from the block's declaration at build time. A step that fails logs its traceback and
     returns fmi2Discard, the only failure that pythonfmu's wrapper can report without losing the instance.
     """
 

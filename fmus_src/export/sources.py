@@ -1,4 +1,4 @@
-"""Record of the source files of a user's FMUs, in sources.json next to the FMUs, by which changes are detected.
+"""Record of the source files of a user's FMUs, in sources.json next to the FMUs, to detect changes.
 
 File names are relative to the folder of sources.json and valid on any machine; FMUs and sources are identified by their
 SHA-256.
@@ -32,7 +32,7 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
 
 
 def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
-    """Remove an FMU whose source file no longer defines it, since it would take precedence over others."""
+    """Remove an FMU whose source file no longer defines it, since it would take precedence over other FMUs."""
     entry = _read(folder).get(_relative(fmu, folder))
     if entry is None or not fmu.is_file():
         return

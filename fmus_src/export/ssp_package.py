@@ -18,7 +18,7 @@ CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
 
 
 def system_files(folder: Path) -> dict[str, Path]:
-    """Return archive name -> file of a system folder, without FMUs that are built elsewhere.
+    """Return the files of a system folder by archive name, without FMUs that are built elsewhere.
 
     SSDs and the FMUs next to them are at the root; parameter sets, mappings and dictionaries in resources/, campaigns
     in extra/, the README in documentation/; the folder's resources/ is copied unchanged.
@@ -56,8 +56,8 @@ def list_fmus(folder: Path) -> dict[str, str]:
 def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
     """Write ``target``/NAME.ssp with the system's files and the FMUs that its SSDs name.
 
-    An FMU is taken from the first of the folders ``fmus`` that contains it. Raises ValueError for an FMU in none of
-    them, naming it and the SSD.
+    An FMU is taken from the first of the folders ``fmus`` that contains it. Raises ValueError for an FMU in none of the
+    folders, which names the FMU and the SSD.
     """
     files = {name: path.read_bytes() for name, path in system_files(folder).items()}
     for source, name in list_fmus(folder).items():

@@ -2,8 +2,8 @@
 
 Two moves alternate (`_NoiseMoves.choose`). Draws move by adaptive conditional sampling (Papaioannou, Betz, Zwirglmaier
 and Straub 2015, section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which preserves the
-normal distribution; its spread sqrt(1 - rho^2) is adapted to the acceptance rate. Noise moves by a fresh stream for one
-source, chosen at random: a Gibbs sampler over the sources by rejection. A candidate is accepted if its margin is above
+normal distribution; its spread sqrt(1 - rho^2) is adapted to the acceptance rate. A noise move gives one source, chosen
+at random, a fresh stream: a Gibbs sampler over the sources by rejection. A candidate is accepted if its margin is above
 the threshold; both moves are reversible with respect to the unconditional distribution.
 """
 
@@ -22,8 +22,8 @@ from ...runtime.loop.elementary import elementary
 class Points:
     """Samples: ``draws`` (points, dimensions), standard normal, and stream numbers ``streams`` (points, sources).
 
-    Points with the same number in a column have the same noise of that source; noise of other numbers is independent of
-    it.
+    Points with the same number in a column have the same noise of that source; noise with different numbers is
+    independent.
     """
 
     draws: np.ndarray
@@ -41,7 +41,7 @@ MarginOf = Callable[[Points], np.ndarray]
 
 
 class FreshStreams:
-    """Unused stream numbers, each returned once, from 0 on: the noise of trials not simulated before."""
+    """Generator of unused stream numbers, from 0 on: each is the noise of a trial not simulated before."""
 
     def __init__(self) -> None:
         self._next = 0
@@ -62,9 +62,9 @@ INERT_AFTER = 10  # number of fresh streams of a source that change no margin
 class Chains:
     """Markov chains: points as ``draws`` (chains, length, dimensions) and ``streams`` (chains, length, sources).
 
-    The first point of each is its seed; ``margins`` are (chains, length). ``draw_acceptance`` is the share of accepted
-    draw moves, None if there were none. ``noise_moves`` and ``noise_accepted`` (sources,) count the moves of each
-    source; ``spread`` is the final one.
+    The first point of each chain is its seed; ``margins`` has the shape (chains, length). ``draw_acceptance`` is the
+    share of accepted draw moves, None without such moves. ``noise_moves`` and ``noise_accepted`` (sources,) count the
+    moves of each source and the accepted ones; ``spread`` is the final spread of draw moves.
     """
 
     draws: np.ndarray
@@ -79,10 +79,10 @@ class Chains:
 class _NoiseMoves:
     """Choice of the streams to renew: one source at a time, and inert sources along with every move.
 
-    A source is chosen with a probability inverse to its acceptance rate so far, so that all are renewed about equally
-    often: the acceptance rate of all noise moves is then near the harmonic mean of the sources'. A source is inert if
-    `INERT_AFTER` fresh streams have not changed any bit of a margin since the level began: renewing it along with other
-    moves is free, and keeps the chains valid.
+    A source is chosen with a probability inversely proportional to its acceptance rate so far, so that all sources are
+    renewed about equally often: the acceptance rate of all noise moves is then near the harmonic mean of the rates of
+    the sources. A source is inert if `INERT_AFTER` fresh streams have not changed any bit of a margin since the level
+    began: renewing it along with other moves is free, and keeps the chains valid.
     """
 
     def __init__(self, sources: int, fresh: FreshStreams, random: np.random.Generator) -> None:
@@ -98,7 +98,7 @@ class _NoiseMoves:
         return bool(self._active.size)
 
     def adapt(self) -> None:
-        """Exclude the sources that have been inert so far; called between groups of chains."""
+        """Mark the sources that have been inert so far; called between groups of chains."""
         inert = ~self._changed & (self.moves >= INERT_AFTER)
         self._active, self._inert = np.flatnonzero(~inert), np.flatnonzero(inert)
         self._weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
@@ -106,8 +106,8 @@ class _NoiseMoves:
     def choose(self, chains: np.ndarray, step: int, draws: float | None) -> np.ndarray:
         """Return the ``chains`` (by number) that renew noise in a step, instead of moving draws.
 
-        Both moves alternate, unless draws are renewed as a whole, with the acceptance rate ``draws``: then they are
-        chosen as often as a source with that rate, if that is less often.
+        Both moves alternate, unless all draws are renewed together, with the acceptance rate ``draws``: then draws are
+        chosen as often as a source with this rate, but at most half of the time.
         """
         if draws is None:
             return (step + chains) % 2 == 1
@@ -115,7 +115,7 @@ class _NoiseMoves:
         return self._random.random(chains.size) < max(0.5, noise / (noise + 1.0 / max(draws, 0.01)))
 
     def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return streams of the next candidates, with one source renewed where ``noise``, and which one (moves,)."""
+        """Return the streams of the next candidates, one source renewed where ``noise``, and its index (moves,)."""
         rows = np.flatnonzero(noise)
         chosen = (
             self._random.choice(self._active, rows.size, p=self._weights / self._weights.sum()) if rows.size else rows
@@ -127,7 +127,7 @@ class _NoiseMoves:
         return renewed, chosen
 
     def count(self, chosen: np.ndarray, accepted: np.ndarray, changed: np.ndarray) -> None:
-        """Record moves of the sources ``chosen``: which were accepted, and which changed the margin."""
+        """Record which moves of the sources ``chosen`` were accepted, and which changed the margin."""
         np.add.at(self.moves, chosen, 1)
         np.add.at(self.accepted, chosen[accepted], 1)
         self._changed[chosen[changed]] = True
@@ -145,9 +145,9 @@ def grow_chains(
 ) -> Chains:
     """Grow chains of ``length`` points from ``seeds``, whose ``margins`` (chains,) reach ``threshold``.
 
-    ``margin`` maps points to margins (points,). Chains only depend on each other through the moves, which are adapted
-    from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators for draw moves and for
-    noise moves. Without sources all moves are draw moves; without dimensions all are noise moves.
+    ``margin`` maps points to margins (points,). Chains depend on each other only through the moves, which are adapted
+    from one group of chains to the next (ibid., equations 25 to 27). ``random`` contains the generators for draw moves
+    and for noise moves. Without sources all moves are draw moves; without dimensions all are noise moves.
     """
     chains, dimensions = seeds.draws.shape
     draws = np.empty((chains, length, dimensions))

@@ -12,9 +12,10 @@ from .outcome import RareOutcome
 
 
 class LevelSpan(NamedTuple):
-    """Simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
+    """Simulations ``first`` to ``last`` of a level, its ``threshold``, and the threshold of the next level.
 
-    ``reached`` is the probability of the level itself, None if its chains are not trusted: no level follows then.
+    ``reached`` is the probability of the level itself, None if its chains are not trusted, in which case no level
+    follows.
     """
 
     number: int
@@ -26,7 +27,7 @@ class LevelSpan(NamedTuple):
 
 
 def level_spans(result: RareOutcome) -> list[LevelSpan]:
-    """Return the levels by the numbers of their simulations, from 1; a chain's seed belongs to the level before."""
+    """Return the levels as ranges of simulations, counted from 1; the seed of a chain belongs to the level before."""
     spans: list[LevelSpan] = []
     levels = result.simulation.levels
     first, seeds, reached = 1, 0, 1.0
@@ -47,10 +48,10 @@ def level_spans(result: RareOutcome) -> list[LevelSpan]:
 
 
 def influence(result: RareOutcome) -> dict[str, float]:
-    """Return the distance of failures from the first level's samples in each dispersed parameter, the largest first.
+    """Return the distance of failures from the first level's samples in each dispersed parameter, largest first.
 
-    In standard deviations of the first level: the larger of the shift of the mean and of that of the mean distance from
-    the median, which detects failures at both ends.
+    The distance is in standard deviations of the first level. It is the larger of two shifts: of the mean, and of the
+    mean distance from the median, which detects failures at both ends.
     """
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
@@ -70,7 +71,7 @@ def influence(result: RareOutcome) -> dict[str, float]:
 
 
 class Equivalent(NamedTuple):
-    """Method to estimate the probability, with its number of simulations and the resulting interval."""
+    """Method of estimating the probability, with its number of simulations and the resulting interval."""
 
     label: str
     simulations: float
@@ -79,7 +80,7 @@ class Equivalent(NamedTuple):
 
 
 def equivalents(result: RareOutcome) -> list[Equivalent]:
-    """Return this study, Monte Carlo with as many simulations, and Monte Carlo of the same accuracy.
+    """Return this study, Monte Carlo with as many simulations, and Monte Carlo with the same accuracy.
 
     The same accuracy means the same coefficient of variation. For Monte Carlo the interval is Clopper and Pearson's for
     the expected number of failures, rounded to an integer.

@@ -1,4 +1,4 @@
-"""Result of a study of a rare failure: numbers, JSON, tables, trials to replay."""
+"""Result of a study of a rare failure: probability, JSON, tables, and trials to replay."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ APART = 1.0  # standard deviations: a failure nearer to a more probable one is n
 
 
 class FailedFlight(FlightDocument):
-    """Row of failures.parquet: ``trial`` is its number.
+    """Failed simulation: row number ``trial`` of failures.parquet.
 
-    ``distance`` is in standard deviations from the medians of the draws, as independent normal variables. For random
-    noise ``streams`` are the trials whose noise each component had.
+    ``distance`` is in standard deviations from the medians of the draws, as independent normal variables. ``streams``
+    contains, for random noise, the trial whose noise each component had.
     """
 
     trial: int
@@ -37,9 +37,9 @@ class FailedFlight(FlightDocument):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RareOutcome(StudyResult):
-    """Probability of a ``failure``, and the simulations from which it was estimated.
+    """Probability of a ``failure``, and the simulations from which the probability was estimated.
 
-    ``simulation`` has the numbers, with ``samples`` points per level.
+    ``simulation`` is the result of the subset simulation with ``samples`` points per level.
     """
 
     DRAWS = "failures.parquet"
@@ -70,7 +70,7 @@ class RareOutcome(StudyResult):
 
     @property
     def why_levels_ended(self) -> str:
-        """Reason why no level follows the last one, if it is the noise, else ""."""
+        """Reason why no level follows the last one if the noise ended the levels, otherwise ""."""
         if not self.simulation.noise_ends:
             return ""
         level, place = self.simulation.levels[-1], len(self.simulation.levels)
@@ -95,7 +95,7 @@ class RareOutcome(StudyResult):
     def _places(self) -> np.ndarray:
         """Indices of the failures among the simulations: nearest to the origin first, where draws are most probable.
 
-        If no draw varies, those nearest to the limit come first.
+        If no draw varies, failures nearest to the limit come first.
         """
         failed = np.flatnonzero(self.flown.values >= 0.0)
         points = self.flown.points
@@ -116,7 +116,7 @@ class RareOutcome(StudyResult):
         return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the result as JSON; ``folder`` is where it has been written, or None."""
+        """Return the result as JSON; ``folder`` is the folder to which it has been written, or None."""
         simulation = self.simulation
         failures = self.failures
         if self.replay(folder, 0):
@@ -154,9 +154,9 @@ class RareOutcome(StudyResult):
 
     @property
     def monte_carlo(self) -> str:
-        """Command for a batch whose trials give a bound ten times lower, if the noise ended the levels, else "".
+        """Command of a batch that lowers the bound tenfold, if the noise ended the levels, otherwise "".
 
-        Also "" if a value is held: a batch holds none, so its trials would not correspond to this result.
+        It is also "" if a value is held: a batch cannot hold values, so its trials would not correspond to this result.
         """
         trials, command = self.brute_force, None if self.commands is None else self.commands.monte_carlo
         if not self.simulation.noise_ends or trials is None or command is None or self.space.held:

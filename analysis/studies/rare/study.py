@@ -35,7 +35,7 @@ def rare_failure(
 
     ``failure`` is an expression over metrics and draws, by default that a trial does not succeed. ``hold`` fixes draws
     at one value, which choices and grids require. The noise is random, with a source for each component that generates
-    random numbers, unless all simulations have that of the campaign's trial ``noise_trial``. Every level has
+    random numbers, unless all simulations have the noise of the campaign's trial ``noise_trial``. Every level has
     ``samples`` points; the search stops below a probability of ``least``. The points are drawn with the campaign's
     seed; ``workers`` does not change the result.
     """

@@ -49,15 +49,15 @@ def fractional_interval(failures: float, samples: float, confidence: float) -> C
 
 
 def equivalent_trials(probability: float, variation: float) -> float | None:
-    """Return the number of plain Monte Carlo trials with the same coefficient of variation; None if that is 0."""
+    """Return the number of plain Monte Carlo trials with the same coefficient of variation; None if it is 0."""
     return None if variation == 0.0 else (1.0 - probability) / (probability * variation**2)
 
 
 def chain_correlation(inside: np.ndarray) -> float:
-    """Return the factor gamma of Au and Beck (2001, equation 29) for chains whose points are in an event or not.
+    """Return the factor gamma of Au and Beck (2001, equation 29) for chains of points inside or outside an event.
 
-    ``inside`` (chains, length) is Boolean. If the chains were independent of each other, the variance of their mean
-    would be 1 + gamma times that of independent points.
+    ``inside`` (chains, length) is True for points in the event. If the chains were independent of each other, the
+    variance of their mean would be 1 + gamma times that of independent points.
     """
     length = inside.shape[1]
     mean = float(inside.mean())
@@ -73,13 +73,13 @@ def chain_correlation(inside: np.ndarray) -> float:
 
 
 def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> ConfidenceInterval:
-    """Return the interval of a probability by levels; failed points belong to ``families`` of ``first`` points.
+    """Return the interval of a probability estimated by levels; ``families`` are the origins of failed points.
 
-    The failed descendants of each of the ``first`` points of the first level count as one draw, independent of the
-    others: the relative variance of their mean is that of the estimate, including all correlation in chains, between
-    chains of one origin and from level to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018,
-    section 2.3). The interval is log-normal, with Student's t for the degrees of freedom of the sum of squares
-    (Satterthwaite).
+    The failed descendants of each of the ``first`` points of the first level count as one independent draw. The
+    relative variance of the mean of these draws is the relative variance of the estimate, including all correlation
+    within chains, between chains of one origin and from level to level (the genealogical estimator: Chan and Lai 2013;
+    Lee and Whiteley 2018, section 2.3). The interval is log-normal, with Student's t for the degrees of freedom of the
+    sum of squares (Satterthwaite).
     """
     _, sizes = np.unique(families, return_counts=True)
     fractions = sizes / sizes.sum()

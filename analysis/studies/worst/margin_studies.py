@@ -1,4 +1,4 @@
-"""Margins at chosen draws of a campaign, by persistent processes that each keep the loop's bench."""
+"""Margins at chosen draws of a campaign, computed by persistent processes that each keep the loop ready."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from .request import MarginRequest
 
 
 class MarginSamples(NamedTuple):
-    """Margins of draws, in the form of a simulation's metrics: columns by name, and a mask of rows that exist."""
+    """Margins of samples, in the form of metrics: columns by name, and a mask of the rows that exist."""
 
     metrics: dict[str, np.ndarray]
     flown: np.ndarray
@@ -39,9 +39,9 @@ class MarginSamples(NamedTuple):
 class MarginStudies:
     """Evaluator of a loop's margins at chosen draws. A context manager, since it holds processes.
 
-    ``first`` are draws with which everything is checked; other arguments are as in `SampleFlights`, which it replaces.
-    ``reasons`` tell for every study why it found no margin, "" if it did. The relevant memory cells are searched once,
-    at the nominal point. Raises InputError, also if that cannot be studied.
+    ``first`` are draws with which the request is checked; other arguments are as in `SampleFlights`, which this class
+    replaces. ``reasons`` contains for every study the reason why it found no margin, "" if it did. The relevant memory
+    cells are determined once, at the nominal point. Raises InputError, also if the nominal point cannot be studied.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Objective of a worst-case search: a number for every trial, from its metrics or a loop's margins; larger is worse."""
+"""Objective of a worst-case search: a number for each trial, from its metrics or a loop's margins; larger is worse."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ from ..flown import strict_number
 
 @dataclass(frozen=True)
 class Objective:
-    """Objective: a function of values by name (trials,) and of which simulations completed (trials,).
+    """Objective: a function of values by name (trials,) and of a mask of completed simulations (trials,).
 
-    It is inf for those that did not complete, and if the number is not finite. ``text`` describes it, ``size`` returns
-    the number that it represents, and ``fact`` converts that number, or one of the values, to JSON; ``expression`` is
-    the one whose value or margin it is, None if the text contains the unit.
+    It is inf for a simulation that did not complete, and for a number that is not finite. ``text`` describes the
+    objective, ``size`` converts an objective value to the number that it represents, and ``fact`` converts this number,
+    or one of the values, to JSON. ``expression`` is the expression whose value or margin is the objective, None if the
+    text contains the unit.
     """
 
     text: str
@@ -69,7 +70,7 @@ LARGEST = "largest_multiplier"
 def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[LoopMargins] | None]) -> dict[str, np.ndarray]:
     """Return columns with each margin and the largest multiplier of all channels, a row for each of ``studied``.
 
-    A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
+    The margin of an unstable loop is `UNSTABLE`, a margin without a crossing inf; the row for None is nan.
     """
     columns: dict[str, np.ndarray] = {}
     for index, channel in enumerate(channels):
@@ -84,7 +85,7 @@ def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[LoopMargi
 def margin_objective(name: str, point: str, channels: Sequence[str], margin: str) -> Objective:
     """Return the objective of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
 
-    For an unstable channel it is its largest multiplier minus 1, which continues from the margin 0.
+    For an unstable channel the objective is its largest multiplier minus 1, which is continuous with the margin 0.
     """
     key, quantity = SIZES[margin]
 

@@ -1,4 +1,4 @@
-"""Result of a worst-case search: numbers, JSON, tables, trials to replay."""
+"""Result of a worst-case search: worst value, JSON, tables, and trials to replay."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .search import SearchPhase
 
 
 class WorstFlight(FlightDocument):
-    """Row of worst.parquet; ``value`` is None if the simulation failed."""
+    """Simulation in a row of worst.parquet; ``value`` is None if the simulation failed."""
 
     trial: int
     value: float | str | None
@@ -33,12 +33,12 @@ class WorstOutcome(StudyResult):
     """Worst point in a box of draws: its ``value`` of ``badness``, inf if it failed, and ``place`` in the unit cube.
 
     ``row`` and ``random`` are the indices in ``flown`` of the worst simulation and of the worst random trial;
-    ``reason`` explains why the worst failed, if known. ``phases`` are those of the search with their numbers of points,
-    the random trials first.
+    ``reason`` explains why the worst failed, if known. ``phases`` are the phases of the search with their numbers of
+    points, the random trials first.
 
-    With random noise, values of points are those ``over`` its realisations, and ``fresh`` are simulations of the worst
-    point with others; ``noise_matters`` tells whether noise changed any value of the random trials, None if that was
-    not examined.
+    With random noise, the value of a point is a quantile ``over`` realisations of the noise, and ``fresh`` contains
+    simulations of the worst point with other realisations. ``noise_matters`` is True if noise changed any value of the
+    random trials, None if this was not examined.
     """
 
     DRAWS = "worst.parquet"
@@ -80,7 +80,7 @@ class WorstOutcome(StudyResult):
 
     @property
     def flown_text(self) -> str:
-        """Statistic of the noise at the worst point, "" if the noise is not random."""
+        """Text on the statistic over the noise at the worst point, "" if the noise is not random."""
         if self.over is None:
             return ""
         return ONE if self.noise_matters is False else self.over.text
@@ -110,7 +110,7 @@ class WorstOutcome(StudyResult):
         return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
 
     def values(self) -> dict[str, float]:
-        """Return the numbers that requirements may refer to; those of fresh noise are nan if it is not used."""
+        """Return the numbers that requirements may refer to; numbers of fresh noise are nan without fresh noise."""
         values = {"worst": self.value, "random": float(self.flown.values[self.random])}
         values |= {
             "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,
@@ -119,7 +119,7 @@ class WorstOutcome(StudyResult):
         return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the result as JSON; ``folder`` is where it has been written, or None."""
+        """Return the result as JSON; ``folder`` is the folder to which it has been written, or None."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,

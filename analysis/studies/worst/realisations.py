@@ -1,4 +1,4 @@
-"""Noise in a worst-case search: the same realisations at every point, fresh ones for the worst point."""
+"""Noise in a worst-case search: the same realisations at every point, fresh realisations for the worst point."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class Realisations:
 
     @property
     def fresh(self) -> int:
-        """Number of realisations, new to the search, with which the worst point is simulated."""
+        """Number of fresh realisations with which the worst point is simulated."""
         return FRESH * self.count
 
     @property
     def name(self) -> str:
-        """Quantile as text, for metrics, of which larger ones are worse, or for margins, of which smaller ones are."""
+        """Quantile as text, both for metrics (larger is worse) and for margins (smaller is worse)."""
         return {0.5: "median", 1.0: "worst"}.get(self.quantile, f"{self.quantile:g} quantile from best to worst")
 
     @property
@@ -51,7 +51,7 @@ class Realisations:
 def read_realisations(
     count: int | None, quantile: float | None, flights: int, noise_trial: int | None, *, default: int = REALISATIONS
 ) -> Realisations:
-    """Return the options on noise, for a search of ``flights`` simulations. Raises InputError."""
+    """Return the noise options of a search with ``flights`` simulations. Raises InputError."""
     for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
             problem = f"all simulations have the noise of trial {noise_trial}"

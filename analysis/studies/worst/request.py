@@ -1,4 +1,4 @@
-"""Request for a search for the worst margin: a loop at one operating point, over a campaign."""
+"""Request to search for the worst margin of a loop at one operating point, over a campaign."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...stability.request.declaration import LoopDeclaration, PointDeclaration
 from ...stability.request.request import Request, Subject, read_request
 
 OF_A_LOOP = ("margin", "point", "at")
-OF_FLIGHTS = {  # with the remedy for a search for a margin
+OF_FLIGHTS = {  # options that do not apply to margins, with the remedy
     "metric": "give one of them",
     "compare": "select the FMU with `use`",
     "faults": "leave them out: margins are computed without faults",
@@ -27,7 +27,7 @@ OF_FLIGHTS = {  # with the remedy for a search for a margin
 
 @dataclass(frozen=True)
 class MarginRequest:
-    """Loop at an operating point of a study with a campaign; small enough to be sent to every worker."""
+    """Loop at an operating point, with a campaign; small enough to be sent to every worker."""
 
     request: Request
     loop: LoopDeclaration
@@ -39,7 +39,7 @@ class MarginRequest:
         return self.request.plan
 
     def open_request(self) -> PointStudy:
-        """Return the study of the point with the campaign's layer and draws. Close it.
+        """Return the study of the point with the campaign's layer and draws, to be closed by the caller.
 
         Raises InputError, StudyError.
         """
@@ -50,7 +50,7 @@ class MarginRequest:
 
 
 def check_options(loop: str | None, options: Mapping[str, object]) -> None:
-    """Reject options, by name, that do not apply to a loop, or only to a loop. Raises InputError."""
+    """Reject options, by name, that do not apply with a loop or apply only with a loop. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:
             raise InputError(f"`{name}`", str(options[name]), "needs `loop`", "give `loop`")
@@ -70,9 +70,10 @@ def request_margin(
     at: float | None,
     seed: int | None,
 ) -> MarginRequest:
-    """Return the request for a loop of a system, or a connector cut at the time ``at`` (s), over a campaign's draws.
+    """Return the request for a system's loop, or for a connector cut at the time ``at`` (s), over a campaign's draws.
 
-    ``point`` is required if the loop has several, ``configuration`` if the campaign has. Raises InputError.
+    ``point`` is required if the loop has several points, ``configuration`` if the campaign has several configurations.
+    Raises InputError.
     """
     request = read_request(
         system,

@@ -1,9 +1,9 @@
 """Maximum of a function over the unit cube, within a number of evaluations.
 
-Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region, from known points, from
-corners, where many smooth functions have their maximum, and from random points. There each coordinate is tried at its
-ends, COBYQA (Ragonneau and Zhang 2023) climbs smooth functions, and Nelder and Mead's simplex (1965, as adapted by Gao
-and Han 2012) climbs stepped ones.
+Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region of the maximum from
+known points, from corners, where many smooth functions have their maximum, and from random points. In this region each
+coordinate is tried at its ends, COBYQA (Ragonneau and Zhang 2023) climbs smooth functions, and Nelder and Mead's
+simplex (1965, as adapted by Gao and Han 2012) climbs stepped ones.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ class Maximum(NamedTuple):
 
 
 class _EndError(Exception):
-    """End of a search: the evaluations are used up, or a value is infinite, which none exceeds."""
+    """Signal for the end of a search: the evaluations are used up, or a value is infinite and cannot be exceeded."""
 
 
 class _Counted:
-    """Function with a limited number of evaluations, which keeps the best point; an infinite value ends it, too."""
+    """Function that records its best point; an infinite value, or a number of evaluations, ends the search."""
 
     def __init__(self, function: Function, points: np.ndarray, values: np.ndarray, evaluations: int) -> None:
         self._function = function
@@ -78,8 +78,9 @@ def largest(
 ) -> Maximum:
     """Return the point (dimensions,) of the unit cube with the largest value found, that value, and the phases.
 
-    ``function`` maps points (points, dimensions) to values (points,), of which none is nan and inf ends the search;
-    ``points`` and ``values`` are known ones to begin with, at least one; ``evaluations`` is the number of further ones.
+    ``function`` maps points (points, dimensions) to values (points,) that are never nan; inf ends the search.
+    ``points`` and ``values`` are one or more known points and values to start from; ``evaluations`` is the number of
+    further evaluations.
     """
     counted = _Counted(function, points, values, evaluations)
     try:
@@ -121,7 +122,7 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
 
 
 def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.random.Generator) -> np.ndarray:
-    """Return all corners (corners, dimensions) of the cube, or half of ``most`` if there are more than that.
+    """Return all corners (corners, dimensions) of the cube, or half of ``most`` if there are more than ``most``.
 
     They include the corner to which a plane through the known values rises; the others are random.
     """

@@ -1,4 +1,4 @@
-"""Worst case of a campaign's draws within a box, with one simulation or study per point."""
+"""Search for the worst case of a campaign's draws within a box, with one simulation or stability study per point."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FLIGHTS = 2000
 STUDIES = 500  # a margin costs more than a simulation
 MARGIN = "disk"
 SIGMAS = 3.0
-RANDOM = 0.2  # share of random trials, with which the worst is compared
+RANDOM = 0.2  # share of random trials, with which the worst trial is compared
 
 
 class SampleEvaluator(Protocol):
@@ -49,7 +49,7 @@ class SampleEvaluator(Protocol):
 
 
 class Sampled(Protocol):
-    """Evaluations of samples: columns (draws,) by name, and a mask of those that exist (draws,)."""
+    """Evaluations of samples: columns (draws,) by name, and a mask (draws,) of the evaluations that exist."""
 
     @property
     def metrics(self) -> Mapping[str, np.ndarray]: ...
@@ -58,7 +58,7 @@ class Sampled(Protocol):
 
 
 class WorstCaseOptions(TypedDict, total=False):
-    """Options of a search by name; ``sigmas`` bounds normal draws, the others are as in `worst_case`."""
+    """Options of a search by name; ``sigmas`` bounds normal draws, the other options are as in `worst_case`."""
 
     sigmas: float
     hold: Mapping[str, float] | None
@@ -71,14 +71,14 @@ class WorstCaseOptions(TypedDict, total=False):
 def worst_case(
     plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[WorstCaseOptions]
 ) -> WorstOutcome:
-    """Search for the draws that maximise an expression, within ``sigmas`` of normal draws and the ends of others.
+    """Search for the draws that maximise an expression, normal draws within ``sigmas`` and others in their intervals.
 
-    ``metric`` is over metrics and draws, by default the margin of success. ``hold`` and ``noise_trial`` are as in
-    `rare_failure`. If components have noise, every point is simulated with the same ``realisations`` of it (5, or one
-    for every hundred ``flights`` if these are fewer than 500), whose ``quantile`` (the median) is maximised; the worst
-    point is simulated with ten times as many fresh ones. A fifth of the ``flights`` are random trials, as starting
-    points and for comparison. The search uses the campaign's seed; ``workers`` does not change the result. Raises
-    InputError.
+    ``metric`` is an expression over metrics and draws, by default the margin of success. ``hold`` and ``noise_trial``
+    are as in `rare_failure`. If components have noise, every point is simulated with the same number of
+    ``realisations`` of it (by default 5, or one per hundred ``flights`` if there are fewer than 500), and the
+    ``quantile`` of their values (by default the median) is maximised; the worst point is simulated with ten times as
+    many fresh realisations. A fifth of the ``flights`` are random trials, which serve as starting points and for
+    comparison. The search uses the campaign's seed; ``workers`` does not change the result. Raises InputError.
     """
     search = _Search(plan, flights, REALISATIONS, **options)
     objective = metric_objective(plan.campaign, metric)
@@ -92,8 +92,8 @@ def worst_margin(
     """Search for the draws that minimise the least margin of a loop's channels, in the box of `worst_case`.
 
     ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, ranked by its spectral radius; draws that
-    cannot be studied are worst. Other arguments are as in `worst_case`, except that ``realisations`` is 1 by default,
-    since noise only affects a loop's margin through the state at the operating point. Raises InputError.
+    cannot be studied are worse than all others. Other arguments are as in `worst_case`, except that ``realisations`` is
+    1 by default, since noise only affects a loop's margin through the state at the operating point. Raises InputError.
     """
     if margin not in SIZES:
         raise InputError("`margin`", margin, "no such margin", f"give {', '.join(SIZES)}")
@@ -105,7 +105,7 @@ def worst_margin(
 
 
 class _Search:
-    """Region and budget of a search. Raises InputError."""
+    """Search with its region and its budget. Raises InputError."""
 
     def __init__(
         self,
@@ -138,7 +138,9 @@ class _Search:
         """Return the worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
-        budget = self._flights - (0 if points.over is None else points.over.fresh)  # without those of fresh noise
+        budget = self._flights - (
+            0 if points.over is None else points.over.fresh
+        )  # without the simulations with fresh noise
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
         own = space.from_normals(standard_normals(random, (int(RANDOM * budget) // points.realisations, space.size)))
         places = space.to_box(own, sigmas)
@@ -202,13 +204,13 @@ class _Points:
         return rows[:, 0] if self.over is None or count == 1 else self.over.objective(rows)
 
     def drop_ineffective_noise(self) -> None:
-        """Use one realisation after the random trials if noise has not changed the value of any."""
+        """Use one realisation after the random trials if noise has not changed any of their values."""
         if self.realisations > 1:
             self.effect = self._varied
             self.realisations = self.realisations if self._varied else 1
 
     def fly_fresh(self, row: int, names: Sequence[str]) -> FreshNoise:
-        """Simulate the point of a row with noise that no simulation of the search had."""
+        """Simulate the point of a row with realisations of noise that the search has not used."""
         assert self.over is not None
         whole, count = self.flown.whole(), self.over.fresh
         columns = {name: np.full(count, whole.draws[name][row]) for name in names}

@@ -1,4 +1,4 @@
-"""Writer of sources/buildDescription.xml of FMI 3.0, by which an importer compiles the sources of an FMU."""
+"""Writer of sources/buildDescription.xml of FMI 3.0, with which an importer compiles the sources of an FMU."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .fmi3 import FMI_VERSION
 
 
 def build_description(model_identifier: str, source: str, options: Sequence[str]) -> bytes:
-    """Return the document for one C file that includes the others, with the compiler options for identical bits."""
+    """Return the document for one C file that includes the others, with compiler options for reproducible results."""
     root = etree.Element("fmiBuildDescription", fmiVersion=FMI_VERSION)
     configuration = etree.SubElement(root, "BuildConfiguration", modelIdentifier=model_identifier)
     files = etree.SubElement(

@@ -39,16 +39,14 @@ def start_description(
 
 
 def add_units(root: etree._Element, variables: Iterable[Variable]) -> None:
-    """Add UnitDefinitions with the units of the variables; omitted without units."""
+    """Add UnitDefinitions with the units of the variables, if any."""
     define_units(root, (unit for variable in variables for unit in variable.units() if unit))
 
 
 def define_units(
     root: etree._Element, names: Iterable[str], others: Mapping[str, UnitDefinition] | None = None
 ) -> None:
-    """Add UnitDefinitions for these units; those that are neither products of known units nor in ``others`` have only
-    a name.
-    """
+    """Add UnitDefinitions; a unit that is neither a product of known units nor in ``others`` has only a name."""
     used = sorted(set(names))
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
@@ -108,15 +106,13 @@ def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
 
 
 def describe(block_class: type[Block], variable: Variable, description: str) -> str:
-    """Return the description of a variable's element in one line, with a note if the block never reads it."""
+    """Return the description of an element of a variable in one line, with a note if the block never reads it."""
     never = isinstance(variable, Parameter) and find_fixed(block_class)[variable.name] == NEVER_READ
     return one_line(f"{description}; {UNREAD}" if never else description)
 
 
 def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:
-    """Return the attribute start. Raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's
-    Int32.
-    """
+    """Return the attribute start. Raises ValueError for an int that does not fit 32 bits."""
     for number in elements:
         if isinstance(number, int) and not _is_32_bit(number):
             raise ValueError(
@@ -126,9 +122,7 @@ def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> st
 
 
 def limits(variable: Variable) -> dict[str, str]:
-    """Return the declared attributes min, max and nominal, and the 32-bit bounds of an Integer without declared
-    bounds.
-    """
+    """Return the attributes min, max and nominal as declared; an Integer without bounds has 32-bit bounds."""
     attributes = {}
     for key, bound, whole in (("min", variable.minimum, math.ceil), ("max", variable.maximum, math.floor)):
         if bound is not None and variable.type_name == "Real":
@@ -159,5 +153,5 @@ def literal(number: float | int | bool) -> str:
     if isinstance(number, bool):
         return boolean(number)
     if math.isinf(number):
-        return "INF" if number > 0 else "-INF"  # xs:double of XML Schema, which has NaN, too
+        return "INF" if number > 0 else "-INF"  # xs:double of XML Schema, which also has NaN
     return "NaN" if math.isnan(number) else repr(number)

@@ -103,9 +103,9 @@ def _scalar_variable(parent: etree._Element, variable: Variable, position: int, 
 def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:
     """Declare the memory layout of fmi2SerializeFMUstate, so that analyses can read and change states.
 
-    "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value reference.
-    ``frozen`` lists the value references that a linearisation does not change. A block with external state is declared
-    as such instead: its memory is not serialised.
+    The layout "words" consists of 6 words of 8 bytes, then one word for every value reference; the layout "json"
+    contains a list "values" by value reference. ``frozen`` lists the value references that a linearisation does not
+    change. A block with external state is declared as such instead, since its memory is not serialised.
     """
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)

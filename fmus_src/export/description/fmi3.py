@@ -22,13 +22,13 @@ from .common import (
 )
 from .variables import TIME, ArrayVariable, list_variables
 
-FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
+FMI_VERSION = "3.0"  # for all of 3.0.x, as returned by fmi3GetVersion
 
 
 def model_description(block_class: type[Block], *, token: str, origin: Mapping[str, str]) -> bytes:
     """Return modelDescription.xml of a block's native FMU for co-simulation.
 
-    ``origin`` contains the attributes of `origin.origin`. Value references number the variables, arrays as wholes, in
+    ``origin`` contains the attributes of `origin.origin`. Value references number the variables, one per array, in
     order of declaration; the last is time. Raises ValueError for a variable ``time``, and for two enumerations of the
     same name.
     """

@@ -34,8 +34,7 @@ PYTHONFMU = "pythonfmu.txt    PythonFMU, whose libraries and modules run the Pyt
 
 
 def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]:
-    """Return the attributes of modelDescription.xml for tool and date; for Perilune's models also version, author,
-    licence.
+    """Return the attributes of modelDescription.xml on tool, date and, for Perilune's models, version and licence.
 
     The date is SOURCE_DATE_EPOCH if set, else the release date. A description that is not ``is_final`` always has the
     release date, since the GUID is its hash. Raises InputError if SOURCE_DATE_EPOCH is not a time.
@@ -50,7 +49,7 @@ def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]
 
 
 def accompanying_files(fmi: int, *, is_ours: bool, runs_python: bool = False) -> dict[str, bytes]:
-    """Return licences and icon of an FMU by their names in it, for an FMI version."""
+    """Return the licences and the icon of an FMU by their paths in it, for an FMI version."""
     entry = ENTRY.format(
         version=version("perilune"),
         ours="all of its own code" if is_ours else "the code around the model, which is its author's",

@@ -45,7 +45,7 @@ def numbered_type(name: str, labels: Sequence[str], first: int) -> EnumerationTy
 
 @dataclass(frozen=True)
 class SystemVariable:
-    """Variable of FMI 2.0; ``start`` is None for a calculated one, ``enumeration`` for all types except Enumeration."""
+    """Variable of FMI 2.0; ``start`` is None if calculated, ``enumeration`` None unless the type is Enumeration."""
 
     name: str
     causality: str
@@ -73,8 +73,9 @@ def system_description(
 ) -> bytes:
     """Return modelDescription.xml; value references number the ``variables`` in order.
 
-    ``dependencies`` are the inputs on which outputs depend directly, ``origin`` the attributes of `origin.origin`,
-    ``experiment`` those of DefaultExperiment, ``units`` the unit definitions of the system.
+    ``dependencies`` contains the inputs on which each output depends directly, ``origin`` the attributes of
+    `origin.origin`, ``experiment`` the attributes of DefaultExperiment, and ``units`` the unit definitions of the
+    system.
     """
     convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
     root = start_description(name, guid, one_line(description), origin, convention)
@@ -104,7 +105,7 @@ def system_description(
 
 
 def _name_types(variables: Sequence[SystemVariable]) -> dict[EnumerationType, str]:
-    """Return the types of the variables with unique names that no variable has (FMI 2.0.4, section 2.2.3)."""
+    """Return the types of the variables, under unique names that no variable has (FMI 2.0.4, section 2.2.3)."""
     used = {each.name for each in variables}
     names: dict[EnumerationType, str] = {}
     for enumeration in dict.fromkeys(each.enumeration for each in variables if each.enumeration is not None):

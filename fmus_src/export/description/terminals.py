@@ -1,7 +1,8 @@
-"""Writer of terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: groups of variables that are connected together.
+"""Writer of terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: groups of variables to be connected together.
 
-A slot of a block, such as terminal_guidance, is a terminal with the connectors that the slot declares; a bundle, such
-as ThrustCommand, is a terminal within the slot or the block. Terminals are connected by the names of their members.
+The shared interface (slot) of a block, such as terminal_guidance, is a terminal with the connectors that the slot
+declares; a bundle, such as ThrustCommand, is a terminal within the slot or the block. Terminals are connected by the
+names of their members.
 """
 
 from __future__ import annotations

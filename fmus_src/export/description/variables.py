@@ -1,4 +1,4 @@
-"""Variables of a block in FMI 3.0: one for a scalar, a vector, a matrix, or a field of a record."""
+"""Variables of a block in FMI 3.0: one for each scalar, vector, matrix and field of a record."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
 class ArrayVariable:
     """Variable of FMI 3.0; ``first`` is the number of its first element among all elements, as counted in FMI 2.0.
 
-    A scalar has no ``dimensions``, a vector one, a matrix rows and columns; its ``starts`` are in row order.
+    ``dimensions`` is empty for a scalar, the length of a vector, or rows and columns of a matrix, whose ``starts`` are
+    row-major.
     """
 
     name: str
@@ -79,5 +80,5 @@ def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
 
 
 def _whole_name(declared: Variable, element: str) -> str:
-    """Return ``motion.attitude`` for a record's ``motion.attitude[1]``; the variable's name without a record."""
+    """Return ``motion.attitude`` for ``motion.attitude[1]`` of a record; otherwise the variable's name."""
     return declared.name if declared.record is None else element.partition("[")[0]

@@ -1,4 +1,4 @@
-"""Replacement of bundle members in kernels: ``self.braking.burn_duration`` is ``self.braking_burn_duration``."""
+"""Replacement of bundle members in kernels: ``self.braking.burn_duration`` by ``self.braking_burn_duration``."""
 
 from __future__ import annotations
 

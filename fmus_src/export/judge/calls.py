@@ -60,9 +60,7 @@ class CallTypes(ExpressionTypes):
         return None
 
     def infer_several(self, node: ast.expr) -> Type | Several | None:
-        """Infer the type of an expression that may have several values: a returned one, or one assigned to several
-        targets.
-        """
+        """Infer the type of an expression that is returned or assigned to several targets, so may have several values."""
         if not isinstance(node, ast.Call):
             return self.infer(node)
         self.function.types[node] = returned = self._value_of(node)
@@ -77,7 +75,7 @@ class CallTypes(ExpressionTypes):
         return returned.returns
 
     def call(self, node: ast.Call) -> Function | Type | Several | None:
-        """Resolve a call; return the callee of a kernel function, else the type of its value."""
+        """Resolve a call; return the called kernel function, otherwise the type of the value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
         matrix = self.make_matrix(node, self._callee(node.func)[0])

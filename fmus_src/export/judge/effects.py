@@ -1,6 +1,6 @@
 """Effects and failures of each kernel function, and the evaluation order that they require in C.
 
-C does not define the order in which operands are evaluated. If two of them can fail differently, the first is hoisted:
+C does not define the order in which operands are evaluated. If two operands can fail differently, the first is hoisted:
 assigned to a separate variable and checked before the statement. Arguments that can fail are always hoisted, so that no
 function is called with them.
 """
@@ -123,7 +123,7 @@ class _Effects:
             self.function.changed_lists.add(holder.id)
 
     def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
-        """Adopt the changes of called functions, which are allowed only as a whole right-hand side or statement."""
+        """Adopt the changes made by a called function, which may only be a complete right-hand side or statement."""
         parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
         for part in (inner for child in parts for inner in ast.walk(child)):
             call = self.function.calls.get(part) if isinstance(part, ast.Call) else None
@@ -186,7 +186,7 @@ class _Effects:
         return inside | own_outcome(self.function, node)
 
     def _in_order(self, nodes: list[ast.expr], conditional: bool, always: bool = False) -> Outcomes:
-        """Process operands from left to right; those that must be evaluated before later ones are hoisted."""
+        """Process operands from left to right; hoist operands that must be evaluated before later ones."""
         outcomes = [self.visit(node, conditional) for node in nodes]
         for position, node in enumerate(nodes):
             mine = outcomes[position]
@@ -199,7 +199,7 @@ class _Effects:
 
 
 def makes_matrix(function: Function, node: ast.AST) -> bool:
-    """Return True if C computes an expression by statements before its own statement."""
+    """Return True if C computes an expression by separate statements before the statement that contains it."""
     product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
     return product or (isinstance(function.types.get(node), MatrixType) and not is_variable(node))  # type: ignore[arg-type, call-overload]
 

@@ -66,7 +66,7 @@ class ExpressionTypes(MatrixTypes):
         self.kernel.report(self.function.source, node, rule, **details)
 
     def refuse_syntax(self, node: ast.AST) -> None:
-        """Report unsupported syntax with the remedy of the table."""
+        """Report unsupported syntax, with the remedy in the table of rules."""
         self.report(node, REFUSED_SYNTAX.get(type(node), OTHER_SYNTAX), name=type(node).__name__)
 
     def infer(self, node: ast.expr) -> Type | None:
@@ -75,7 +75,7 @@ class ExpressionTypes(MatrixTypes):
         return inferred
 
     def _infer_by_syntax(self, node: ast.expr) -> Type | None:
-        """Return the type of an expression of the subset; report any other."""
+        """Return the type of an expression of the subset; report other expressions."""
         match node:
             case ast.Constant():
                 return self.infer_constant(node)
@@ -107,12 +107,12 @@ class ExpressionTypes(MatrixTypes):
     def static_size(self, node: ast.expr) -> int | None:
         """Return the constant value of an int literal, constant or length, or of a sum, product or quotient of these.
 
-        It is the size of a list or matrix, or a bound of a slice; None for an int that is not constant.
+        Such values are sizes of lists and matrices, and bounds of slices. Returns None for an int that is not constant.
         """
         return self._fold(node) if self.infer(node) is INT else None
 
     def _fold(self, node: ast.expr) -> int | None:
-        """Return the value of a constant, typed int expression."""
+        """Return the value of a constant int expression."""
         if node in self.function.constants:
             return self.function.constants[node].value
         match node:

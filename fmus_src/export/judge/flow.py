@@ -55,7 +55,7 @@ class FlowCheck:
     def loop(self, node: ast.For, assigned: frozenset[str]) -> frozenset[str] | None:
         """Return the names definitely assigned after a loop.
 
-        Those of its body count if it runs at least once and has no break or continue.
+        Names assigned in its body count if it runs at least once and has no break or continue.
         """
         self.reads(node.iter, assigned)
         inside = assigned | {node.target.id} if isinstance(node.target, ast.Name) else assigned

@@ -108,7 +108,7 @@ class BoundFunction:
 
 @dataclass(frozen=True)
 class Several:
-    """Types of a function's several return values, which can only be assigned to as many targets."""
+    """Types of several return values of a function, which can only be assigned to as many targets."""
 
     parts: tuple[Scalar | VectorType | MatrixType | RecordType, ...]
 
@@ -123,9 +123,9 @@ Returned = Value | Several
 
 @dataclass(frozen=True)
 class Constant:
-    """Module constant: a float, int, bool, vector or tuple of numbers.
+    """Module constant: float, int, bool, vector or tuple of numbers.
 
-    It is compared by its text, since NaN is not equal to itself.
+    Constants are compared as text, since NaN is not equal to itself.
     """
 
     module: str
@@ -248,9 +248,7 @@ class Function:
 
     @property
     def is_total(self) -> bool:
-        """True if it has a result for every argument, so no checks are needed: the elementary functions, as tests
-        show.
-        """
+        """True if the function has a result for every argument and needs no checks, like elementary functions."""
         return self.source.module.startswith(f"{elementary.__name__}.")
 
     @property

@@ -108,7 +108,7 @@ class MatrixTypes(RecordTypes):
         return value if isinstance(value, slice) else None
 
     def make_matrix(self, node: ast.Call, callee: Any) -> Type | None:
-        """Infer the type of a call that creates a matrix; None for another or an invalid call."""
+        """Infer the type of a call that creates a matrix; None for other and for invalid calls."""
         name = MAKERS.get(callee) if callee is not None else None
         if name is None:
             return self._copy(node)

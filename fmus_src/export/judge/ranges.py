@@ -1,6 +1,6 @@
 """Ranges of the ints in a kernel, to prove indices and sums valid before anything runs.
 
-Everything not proven is checked at run time. A range holds for the whole function, regardless of the order of its
+Whatever is not proven is checked at run time. A range is valid for the entire function, regardless of the order of its
 statements; the ranges of arguments cover every call.
 """
 
@@ -30,7 +30,7 @@ ROUNDS_BEFORE_WIDENING = 4
 
 
 def find_ranges(kernel: Kernel) -> None:
-    """Determine ranges, callers first so that those of arguments are known; report values that can never be valid."""
+    """Determine ranges, callers first so that ranges of arguments are known; report values that are never valid."""
     for function in reversed(kernel.functions):
         ranges = _Ranges(kernel, function)
         ranges.settle()
@@ -160,9 +160,7 @@ class _Ranges:
             )
 
     def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
-        """Report mixed operands: Python compares an int with a float, and divides ints, without rounding; C rounds the
-        int first.
-        """
+        """Report mixed operands: Python compares ints with floats, and divides ints, exactly; C first rounds the int."""
         operands = [node.left, node.right if isinstance(node, ast.BinOp) else node.comparators[0]]
         kinds = [self.function.types.get(operand) for operand in operands]
         exact = all(
@@ -193,7 +191,7 @@ def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, 
 
 
 def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
-    """Return the loop's range for each read of a loop variable inside its loop, unless it is assigned there."""
+    """Return the loop's range for each read of a loop variable inside its loop, unless the body assigns it."""
     by_read: dict[ast.expr, ast.Call] = {}
     loops = [node for node in ast.walk(function.source.node) if isinstance(node, ast.For)]
     for loop in loops:  # outer loops first, so that inner ones overwrite them

@@ -104,7 +104,7 @@ def find_global(function: FunctionType, name: str) -> Any:
 
 
 def origin_of_constant(function: FunctionType, name: str) -> str:
-    """Return the full name of the module that defines a constant, which the function's module may only import."""
+    """Return the full name of the module that defines a constant, which the function's module may have imported."""
     tree = _tree(Path(function.__code__.co_filename))
     for node in tree.body:
         if isinstance(node, ast.ImportFrom):
@@ -142,7 +142,7 @@ def _comments(text: str) -> dict[int, str]:
 
 
 def _tree(path: Path) -> ast.Module:
-    """Return the syntax tree of a file; one per content, since a function is identified by its node.
+    """Return the syntax tree of a file, always the same for equal content, since nodes identify functions.
 
     Access is serialised: two threads would create two trees, and CPython 3.11 counts the depth of a tree for all
     threads together, so concurrent calls of `ast.parse` sometimes fail (its issue 106905).
@@ -157,7 +157,7 @@ def _parse(text: str) -> ast.Module:
 
 
 class _Normalise(ast.NodeTransformer):
-    """Rewriter of ``x += y`` to ``x = x + y``, which has the same meaning for all that a kernel may change."""
+    """Rewriter of ``x += y`` to ``x = x + y``, which is equivalent for all values that a kernel may change."""
 
     def visit_AugAssign(self, node: ast.AugAssign) -> ast.Assign:
         reading = copy.deepcopy(node.target)

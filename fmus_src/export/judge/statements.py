@@ -45,7 +45,7 @@ class StatementTypes(CallTypes):
             self.check(statement)
 
     def check(self, statement: ast.stmt) -> None:
-        """Check a statement of the subset; report any other."""
+        """Check a statement of the subset; report other statements."""
         match statement:
             case ast.Assign():
                 self.check_assign(statement)
@@ -234,9 +234,7 @@ class StatementTypes(CallTypes):
             self.report(node, "loop else")
 
     def _check_returned_matrices(self, node: ast.Return) -> None:
-        """Report a returned matrix that would have two names: an argument, a variable of the block, or one returned
-        twice.
-        """
+        """Report a returned matrix that would have two names: an argument, a block's variable, or a repeated result."""
         results = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
         for number, result in enumerate(results):
             if not isinstance(result, ast.expr) or not isinstance(self.function.types.get(result), MatrixType):

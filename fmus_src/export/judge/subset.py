@@ -1,4 +1,4 @@
-"""Check that a block's kernel is written in the subset of Python of subset_table.py.
+"""Check that a block's kernel is written in the subset of Python that is defined in subset_table.py.
 
 Accepted code runs as plain Python and translates to C99 with identical bits.
 """
@@ -42,7 +42,7 @@ def analyse_kernel(block_class: type[Block]) -> Kernel:
 
 
 def records_of(kernel: Kernel) -> list[RecordType]:
-    """Return the records of a kernel, each after those of its fields; each becomes a C struct of its name."""
+    """Return the records of a kernel, each after the records of its fields; each becomes a C struct of its name."""
     ordered: dict[RecordType, None] = {}
 
     def add(kind: object) -> None:
@@ -77,7 +77,7 @@ def _analyse(block_class: type[Block]) -> Kernel:
 
 
 def _check_record_names(kernel: Kernel) -> None:
-    """Report records with the same name, which would be one struct in C."""
+    """Report records with the same name, which would be the same struct in C."""
     named: dict[str, type] = {}
     for kind in records_of(kernel):
         record = kind.record

@@ -1,4 +1,4 @@
-"""Subset of Python for kernels: allowed constructs, and alternatives for the others.
+"""Subset of Python for kernels: allowed constructs, and alternatives for other constructs.
 
 Kernels are `initialize`, `step` and every method and function they reach. They run as plain Python and are translated
 to C99 with results equal to the last bit, so the subset contains only what has the same meaning in both languages.

@@ -1,10 +1,10 @@
-"""Proof which parameters of a block may change between steps, with the reason for each that may not.
+"""Determination of the parameters that may change between steps, with a reason for each that may not.
 
 A parameter is tunable if functions reached by `step` read it, and if no variable that the steps read but never write
-follows from it in `initialize`: the next step then computes, from the present states, what it would have computed with
-that value from the beginning. Dependences are found without regard to the order of assignments but with control
-dependence (Ferrante, Ottenstein and Warren 1987): a test affects the assignments in its branches, and statements after
-a return, break or continue inside them.
+depends on it through `initialize`: the next step then gives, from the present states, the same result as if the
+parameter had always had its new value. Dependences are determined regardless of the order of assignments, and include
+control dependence (Ferrante, Ottenstein and Warren 1987): a test affects the assignments in its branches, and
+statements after a return, break or continue inside them.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def _prove(kernel: Kernel, parameters: Iterable[str]) -> dict[str, str | None]:
 
 
 def _following(sources: dict[str, Names], name: str) -> set[str]:
-    """Return all names that follow from a name, directly or indirectly."""
+    """Return all names that depend on a name, directly or indirectly."""
     reached = {name}
     while True:
         more = {each for each, origins in sources.items() if not origins.isdisjoint(reached)}
@@ -108,7 +108,7 @@ def _following(sources: dict[str, Names], name: str) -> set[str]:
 
 
 def _reads(function: Function) -> set[str]:
-    """Return the names of the block's variables that a function, or one that it reaches, reads."""
+    """Return the names of the block's variables that a function or its callees read."""
     names: set[str] = set()
     known, ahead = {function}, [function]
     while ahead:
@@ -124,7 +124,7 @@ def _reads(function: Function) -> set[str]:
 
 
 def _holder(target: ast.AST) -> ast.AST:
-    """Return the name, or ``self.name``, that an assignment to an element or block changes."""
+    """Return the name, or ``self.name``, whose value an assignment to an element or a block changes."""
     while isinstance(target, ast.Subscript):
         target = target.value
     return target
@@ -181,7 +181,7 @@ class _Flow:
         return self._read(node.iter if isinstance(node, ast.For) else node.test, frozenset())
 
     def _leaving(self, statements: list[ast.stmt], jumps: tuple[type[ast.stmt], ...]) -> Names | None:
-        """Return the names that decide whether a jump leaves the statements; None if no jump does."""
+        """Return the names that decide whether a jump leaves the statements; None if there is no such jump."""
         origins: Names | None = None
         for node in statements:
             inside: Names | None = frozenset() if isinstance(node, jumps) else None
@@ -204,7 +204,7 @@ class _Flow:
         self.sources[name] = self.sources.get(name, frozenset()) | origins
 
     def _read(self, node: ast.AST, deciding: Names) -> Names:
-        """Return the names from which an expression follows, and record assignments by its calls."""
+        """Return the names on which an expression depends, and record the assignments of its calls."""
         if isinstance(node, ast.expr) and isinstance(self.function.types.get(node), BoundFunction):
             return frozenset()
         if isinstance(node, ast.Attribute) and is_self_attribute(node):

@@ -65,7 +65,7 @@ class CallWriter(ABC):
         return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
 
     def vector(self, elements: list[str]) -> str:
-        """Return a vector of components, in parentheses because isfinite and fabs are macros and it contains commas."""
+        """Return a vector of components, in parentheses because its commas would separate arguments of macros."""
         return f"(({c_type(VectorType(len(elements)))}){{{{{', '.join(elements)}}}}})"
 
     def write_call(self, node: ast.Call) -> tuple[str, int]:
@@ -107,7 +107,7 @@ class CallWriter(ABC):
         return text[2:-1] if text.startswith("(*") else f"&{text}"
 
     def _make_record(self, node: ast.Call, kind: RecordType) -> str:
-        """Return the C text of a record of all its fields, or of a copy with some fields replaced."""
+        """Return the C text of a record with all its fields, or of a copy with some fields replaced."""
         keywords = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
         holder = self.write(node.args[0], ATOM) if node.args else ""
         values = [keywords.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]

@@ -38,7 +38,7 @@ class MatrixText(Protocol):
     """Interface of the matrix writer that the expression writer uses."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """Return the C text and precedence of a matrix that is not a variable, or of a vector computed from one."""
+        """Return C text and precedence of a matrix that is not a variable, or of a vector computed from a matrix."""
 
     def write_part(self, node: ast.Subscript) -> str:
         """Return the C text of ``p[i, j]`` or ``p[i, 0:3]``."""
@@ -47,7 +47,7 @@ class MatrixText(Protocol):
 class ExpressionWriter(CallWriter):
     """Writer of one function's expressions.
 
-    The statement writer sets ``matrices``, whose elements contain expressions again.
+    The statement writer sets ``matrices``, since elements of matrices contain expressions in turn.
     """
 
     matrices: MatrixText

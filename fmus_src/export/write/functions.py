@@ -11,7 +11,7 @@ from .statements import StatementWriter
 
 
 def signature(function: Function, name: str, block_type: str) -> str:
-    """Return a signature like ``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
+    """Return a signature such as ``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
     arguments = []
     if function.takes_block:
         arguments.append(f"{'' if function.changes_block else 'const '}{block_type} *self")

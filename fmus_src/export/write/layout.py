@@ -25,7 +25,7 @@ class CodeLines:
         self.depth = depth
 
     def add(self, text: str, python_line: int = 0) -> None:
-        """Add one statement, broken if it is too long, with the Python line as a comment on its right."""
+        """Add one statement, broken over lines if too long, with the Python line number as a comment on its right."""
         *heads, text = text.split("\n")
         self.text += [INDENT * self.depth + head for head in heads]
         parts = textwrap.wrap(

@@ -18,9 +18,7 @@ class MatrixWriter(MatrixEntries):
     """Writer of the matrices of one function."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """Return the C text of a matrix that is not a variable, or of a vector computed from one, after adding its
-        statements.
-        """
+        """Add the statements that a matrix or a vector computed from a matrix needs; return its C text."""
         kind = self.function.types[node]
         if isinstance(kind, VectorType):
             entry = self.prepare(node)
@@ -78,7 +76,7 @@ class MatrixWriter(MatrixEntries):
         return name
 
     def _fill(self, node: ast.expr, left: str, name: str, declares: bool) -> None:
-        """Compute a matrix that nothing else reads in the meantime."""
+        """Write the computation of a matrix that no other expression reads in the meantime."""
         kind = self.function.types[node]
         assert isinstance(kind, MatrixType)
         call = self.function.calls.get(node) if isinstance(node, ast.Call) else None

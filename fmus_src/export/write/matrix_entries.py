@@ -1,6 +1,6 @@
 """C text of the elements of a matrix expression, after the statements that they need.
 
-Operands of which an element is needed several times, products and results of calls are first computed in a new matrix.
+Products, results of calls, and operands with elements that are needed several times are first computed in a new matrix.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class MatrixEntries:
         return name
 
     def _product(self, node: ast.expr) -> Entry:
-        """Return the elements of ``a @ b``, whose sums start with the first product, or of ``add_product(q, a, b)``."""
+        """Return the elements of ``a @ b`` (sums that start with the first product) or ``add_product(q, a, b)``."""
         if self.plan.is_long(node):
             kind = self.function.types[node]
             assert isinstance(kind, MatrixType)
@@ -163,7 +163,7 @@ class MatrixEntries:
         return entry
 
     def factors(self, node: ast.expr) -> tuple[Entry | None, Entry, Entry]:
-        """Return the elements of the addend of a product and of both factors.
+        """Return the elements of both factors of a product and of the matrix to which it is added.
 
         A factor is computed in a separate matrix if its elements are used several times and need computation.
         """

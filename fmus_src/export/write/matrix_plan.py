@@ -34,7 +34,7 @@ class MatrixPlan:
         return self._is_product(node) and self.inner(node) > SHORT
 
     def is_cheap(self, node: ast.expr) -> bool:
-        """Return True if elements of an expression are read without computation."""
+        """Return True if the elements of an expression can be read without computation."""
         if isinstance(node, ast.Attribute | ast.Subscript) and not is_variable(node):
             return self.is_cheap(node.value)
         return is_variable(node) or isinstance(self.function.calls.get(node), KernelCall)  # type: ignore[call-overload]
@@ -52,7 +52,7 @@ class MatrixPlan:
         return size <= FEW and size * max([1, *(count for count in terms if count <= SHORT)]) <= FEW_TERMS
 
     def is_disturbed(self, node: ast.expr, target: str, variable: str) -> bool:
-        """Return True if an element of a value reads elements of the assigned variable other than the assigned one.
+        """Return True if an element of a value depends on elements of the assigned variable other than itself.
 
         An argument may be the matrix of the block that is assigned.
         """

@@ -94,7 +94,7 @@ def names_of(kernel: Kernel) -> Names:
 
 
 def _function_names(functions: list[Function]) -> dict[Function, str]:
-    """Return a C name per function: its module (the class of a method) and its own name.
+    """Return a C name for each function: its module (or the class of a method) and its name.
 
     If this is not unique, the module's folder or the sizes of its lists are added.
     """
@@ -135,8 +135,7 @@ def block_type_name(name: str) -> str:
 def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
     """Return C names of constants: ``TERMINAL_GUIDANCE_UNLIMITED`` for ``UNLIMITED`` of terminal_guidance.
 
-    Folders are added if needed. Members of several enumerations of one module may have the same name; they are
-    numbered.
+    Folders are added if needed. Equal names of members of several enumerations in one module are numbered.
     """
     names: dict[Constant, str] = {}
     for constant in dict.fromkeys(constants):

@@ -1,4 +1,4 @@
-"""Operators in C: their precedence, that of Python's operators, and functions that replace some of them."""
+"""Operators in C: their precedence, the precedence of Python's operators, and functions that replace operators."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ OPERATIONS: dict[str, tuple[str, str, str]] = {
 
 
 def write_records(kernel: Kernel) -> list[str]:
-    """Write the definitions of a kernel's records, each after those of its fields."""
+    """Write the definitions of a kernel's records, each after the records of its fields."""
     return [_definition(kind) for kind in records_of(kernel)]
 
 

@@ -19,8 +19,8 @@ FEW = 8  # largest number of elements unrolled in place of a loop
 class StatementWriter(FunctionWriter):
     """Writer of one function's statements.
 
-    A statement that can record a fault is followed by a return; what it assigns to the block or an argument is first
-    stored in a local variable, so that a fault leaves the same values as an exception in Python.
+    A statement that can record a fault is followed by a check that returns; a value to be assigned to the block or an
+    argument is first stored in a local variable, so that a fault leaves the same values as an exception in Python.
     """
 
     def __init__(self, function: Function, names: Names) -> None:

@@ -96,7 +96,7 @@ def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
 
 
 def _references(block_class: type[Block], fmi: int) -> list[str]:
-    """Return names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0, which has their table."""
+    """Return names by value reference: of elements in FMI 2.0, of variables in FMI 3.0."""
     lines = CodeLines()
     if fmi == 3:
         lines.comment("In order of value references.")
@@ -126,9 +126,7 @@ def _initialise(start: Any) -> str:
 
 
 def _alike(traits: list[str]) -> list[int]:
-    """Count, for each element, the consecutive elements from it on with equal traits; they are contiguous in the
-    struct.
-    """
+    """Count the consecutive elements, from each one on, that have equal traits and are contiguous in the struct."""
     counts: list[int] = []
     for number in range(len(traits) - 1, -1, -1):
         goes_on = counts and traits[number] == traits[number + 1]

@@ -77,7 +77,7 @@ def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
 
 @cache  # an FMU is translated without and with its GUID, which is a hash of the former
 def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
-    """Return the C before the tables, which contain the GUID, and after them: kernel and entry points."""
+    """Return the C code before and after the tables, which contain the GUID: kernel and entry points."""
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
@@ -183,7 +183,7 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
 
 
 def _define_checked(function: Function, c_name: str, error: str) -> str:
-    """Return the form of an elementary function that records a fault, such as ``py_sin``, at its caller's line."""
+    """Return the form of an elementary function, such as ``py_sin``, that records a fault at its caller's line."""
     if error == EITHER_ERROR:
         return f"CHECKED_POWER({function.source.name}, {c_name})\n"
     return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"

@@ -42,7 +42,7 @@ class FunctionWriter:
         self.lines.add(text, self.line)
 
     def check(self) -> None:
-        """Add a return for the case of a recorded fault."""
+        """Add a statement that returns if a fault is recorded."""
         returns = self.function.returns
         value = ""
         if isinstance(returns, Scalar):
@@ -74,7 +74,7 @@ class FunctionWriter:
         return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
 
     def declare(self, name: str) -> str:
-        """Return type and name of a local variable, as a declaration begins."""
+        """Return the type and name of a local variable, the beginning of its declaration."""
         kind = self.function.locals[name]
         assert isinstance(kind, Value | List)
         if isinstance(kind, List):
