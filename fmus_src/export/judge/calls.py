@@ -60,7 +60,7 @@ class CallTypes(ExpressionTypes):
         return None
 
     def infer_several(self, node: ast.expr) -> Type | Several | None:
-        """Infer the type of an expression that is returned or assigned to several targets, so may have several values."""
+        """Infer the type of an expression that is returned or assigned to several targets."""
         if not isinstance(node, ast.Call):
             return self.infer(node)
         self.function.types[node] = returned = self._value_of(node)

@@ -160,7 +160,7 @@ class _Ranges:
             )
 
     def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
-        """Report mixed operands: Python compares ints with floats, and divides ints, exactly; C first rounds the int."""
+        """Report mixed operands: Python compares ints with floats, and divides ints, exactly; C rounds the int."""
         operands = [node.left, node.right if isinstance(node, ast.BinOp) else node.comparators[0]]
         kinds = [self.function.types.get(operand) for operand in operands]
         exact = all(
