@@ -123,7 +123,7 @@ class _Effects:
             self.function.changed_lists.add(holder.id)
 
     def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
-        """Adopt the changes made by a called function, which may only be a complete right-hand side or statement."""
+        """Adopt the changes of a called function, which may only be a complete right-hand side or statement."""
         parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
         for part in (inner for child in parts for inner in ast.walk(child)):
             call = self.function.calls.get(part) if isinstance(part, ast.Call) else None
