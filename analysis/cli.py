@@ -26,7 +26,10 @@ USAGE = "perilune [--help] [--version] VERB ..."
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Execute one command and return its exit status, which is unaffected by a reader that closes the pipe early."""
+    """Execute one command and return its exit status.
+
+    A reader that closes the pipe early does not change the status.
+    """
     with guard_streams() as output:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
@@ -83,7 +86,7 @@ def _check_names(verb: Verb, arguments: Sequence[str]) -> None:
 
 
 class _Version(argparse.Action):
-    """Action that prints the version; the version is read, which is slow, only when the option is used."""
+    """Action that prints the version, which is slow to determine and therefore read only on demand."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         metadata = importlib.import_module("importlib.metadata")
@@ -150,7 +153,7 @@ def parser_of(arguments: Sequence[str]) -> Parser:
 
 
 def _find_completer(name: str) -> Completer:
-    """Return a completer by name; the module of completers is slow to import and loaded only here."""
+    """Return a completer by name; only this function imports the module of completers, which is slow."""
     completer: Completer = getattr(importlib.import_module(".verbs.options.completers", __package__), name)
     return completer
 

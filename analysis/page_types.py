@@ -175,7 +175,7 @@ def _has_columns(hint: Any) -> bool:
 
 
 def _translate_type(hint: Any, member: str) -> str:
-    """Return a type in TypeScript. Raises UntranslatableError, which names ``member``."""
+    """Return a Python type as TypeScript. Raises UntranslatableError, which names ``member``."""
     if hint in PLAIN:
         return PLAIN[hint]
     if hint in COLUMNS:

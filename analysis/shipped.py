@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _loop_platforms(portable: bool) -> list[str]:
-    """Return the platforms that the loop is built for: all platforms of a ``portable`` build, else this machine's."""
+    """Return the platforms to build the loop for: all of them if ``portable``, else the platform of this machine."""
     return available_platforms(FMI) if portable else [name for name in [local_platform(FMI)] if name is not None]
 
 

@@ -44,7 +44,7 @@ def toml_value(value: Any) -> str:
     if isinstance(value, list):
         return f"[{', '.join(map(toml_value, value))}]"
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)  # TOML has JSON's escapes
+        return json.dumps(value, ensure_ascii=False)  # TOML uses the same escapes as JSON
     return str(value).lower() if isinstance(value, bool) else repr(value)
 
 

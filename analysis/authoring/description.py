@@ -20,9 +20,9 @@ CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculate
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
     """Return a row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items.
 
-    ``values``, in the variables' units, replace the start values of the FMU; ``origins`` are the places that they come
-    from. ``size`` is 1, the number of elements of a vector, or [rows, columns] of a matrix; the ``value`` of an array
-    is a list in row order.
+    ``values``, in the variables' units, replace the start values of the FMU; ``origins`` are the places at which they
+    are set. ``size`` is 1, the number of elements of a vector, or [rows, columns] of a matrix; the ``value`` of an
+    array is a list in row-major order.
     """
     values, origins = values or {}, origins or {}
     rows: dict[str, dict[str, Any]] = {}
@@ -74,7 +74,7 @@ def _number(text: Any) -> float | None:
 
 
 def _join_elements(before: str | None, now: str | None) -> str | None:
-    """Join the origins of a vector's elements: each once, consecutive lines as a range."""
+    """Return the distinct origins of a vector's elements as one text, with consecutive lines as a range."""
     if now is None or before is None:
         return before or now
     *remainder, last = before.split("; ")

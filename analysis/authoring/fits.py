@@ -1,4 +1,4 @@
-"""Replacement of FMUs: the FMUs that have all connectors of another one and its parameters with values."""
+"""Replacement of FMUs: search for FMUs with all connectors of a component and all of its parameters that are set."""
 
 from __future__ import annotations
 

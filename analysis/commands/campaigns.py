@@ -36,7 +36,7 @@ def batch_command(plan: BatchPlan, output: Path | None = None) -> str:
 
 
 def batch_of_folder(folder: Path) -> str:
-    """Return the command that wrote a campaign's folder; empty if there is no manifest or its contents."""
+    """Return the command that wrote a campaign's folder; an empty text if its manifest or contents cannot be read."""
     try:
         plan = restore(folder, read_manifest(folder))
     except (InputError, OSError):
@@ -53,8 +53,8 @@ def replay_of_folder(folder: Path, configurations: Collection[object], configura
 
 
 def campaign_name(plan: BatchPlan) -> str:
-    """Return the name of a plan's campaign for a command: the name if the system contains it, else the path."""
-    inside = plan.campaign.file.partition("!")[2]  # for a system's own campaign
+    """Return a plan's campaign as a command states it: its name if the system contains it, else its path."""
+    inside = plan.campaign.file.partition("!")[2]  # name of a campaign inside the system
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 
 

@@ -14,7 +14,7 @@ class Quantity(NamedTuple):
     """A number in SI, displayed in a readable unit with ``digits`` significant digits.
 
     ``is_bare`` omits the unit, which the row or column states. ``decimals`` replaces ``digits`` for fractions, so that
-    all in a column have the same number of decimals.
+    all numbers in a column have as many decimals.
     """
 
     value: float | int | bool | None
@@ -25,7 +25,7 @@ class Quantity(NamedTuple):
 
 
 class DisplayedNumber(NamedTuple):
-    """A number with its own text, for one that is not a multiple of the SI value: a factor in dB, a complex number."""
+    """A number and its displayed text, if this is not a multiple of the SI value: a factor in dB, a complex number."""
 
     text: str
     exact: float | complex
@@ -126,7 +126,7 @@ class Lines(NamedTuple):
 
 
 class LegendEntry(NamedTuple):
-    """The look of lines or marks, and what they show: the names of ``lines``, or words that contain them."""
+    """The look of lines or marks, and their meaning: the names of ``lines``, or words that contain them."""
 
     look: Look | Marker | Curve
     lines: Sequence[str]

@@ -62,7 +62,7 @@ class Printed:
 
 @dataclass(frozen=True)
 class Note:
-    """A remark that helps to read a figure or a table, only on a page; ``style``: only on ``paper`` or ``screen``."""
+    """A remark on a page that helps to read a figure or a table; ``style`` restricts it to ``paper`` or ``screen``."""
 
     kind: ClassVar[str] = "note"
     content: Rich

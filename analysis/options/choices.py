@@ -1,4 +1,4 @@
-"""Choices of options: types for annotations, whose `get_args` are the names in the order of help texts."""
+"""Literal types of options with fixed choices, which `get_args` returns in the order of help texts."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ Engine = Literal["threads", "processes"]
 LogLevel = Literal["error", "warning", "info", "all"]
 MarginKind = Literal["disk", "modulus", "gain", "phase", "delay"]
 
-SEQUENTIAL: Algorithm = "sequential"  # where neither option nor system states another
-FUSED: Flavour = "fused"  # of native FMUs, the steps of the system compiled as one function
+SEQUENTIAL: Algorithm = "sequential"  # default of options and systems
+FUSED: Flavour = "fused"  # native FMUs with all steps of the system compiled into one function

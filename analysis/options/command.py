@@ -1,4 +1,4 @@
-"""Writer of commands and records: only options that differ from their defaults."""
+"""Writer of command lines and records, which contain only the options that differ from their defaults."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str
             continue
         for text in value_texts(each, value):
             flag = f"--{each.flag}"
-            # with an equals sign a text that begins with a dash remains a value
+            # with an equals sign, a text that begins with a dash is read as a value
             words += [flag] if not text else [f"{flag}={text}"] if text[0] == "-" else [flag, text]
     return shlex.join(words)
 

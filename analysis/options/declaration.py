@@ -20,8 +20,8 @@ class NoOptions(TypedDict):
 class Argument:
     """A positional argument of a verb, or with ``is_option`` a required option of the command line.
 
-    ``name`` is the parameter of the Python function. ``read`` converts the text; ``many`` accepts one or more,
-    ``optional`` at most one.
+    ``name`` is the parameter of the Python function, and ``read`` converts the text. ``many`` accepts one or more
+    values, ``optional`` accepts at most one.
     """
 
     name: str
@@ -38,11 +38,14 @@ class Argument:
 class Verb:
     """Declaration of a verb, from which command line, signature and documentation derive.
 
-    ``name`` is the name on the command line (two words for a verb of a group). ``options`` are common to command line
-    and Python function; ``files`` are output files of the command line only. ``function`` is the Python function if it
-    is not NAME.NAME. ``examples`` are commands with comments; ``not_met`` explains exit status 1, apart from an
-    interruption. ``is_command_alone`` marks a verb without use in Python. ``objects`` are parameters of the Python
-    function only, each in place of several options, with their texts.
+    - ``name``: name on the command line, two words for a verb of a group.
+    - ``options``: options of the command line and of the Python function.
+    - ``files``: output files, options of the command line only.
+    - ``function``: the Python function, if it is not NAME.NAME.
+    - ``examples``: commands with comments.
+    - ``not_met``: meaning of exit status 1, apart from an interruption.
+    - ``is_command_alone``: True for a verb without a Python function.
+    - ``objects``: parameters of the Python function only, with their texts; each replaces several options.
     """
 
     name: str

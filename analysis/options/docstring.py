@@ -88,7 +88,7 @@ def option_text(verb: Verb, declared: Declared) -> str:
 def find_example(verb: Verb) -> str:
     """Return the first example of a verb that uses options of its function, else its first example.
 
-    Empty for a verb of the command line alone.
+    The text is empty if the verb has no Python function.
     """
     commands = [command for command in verb.examples if f"{command} ".startswith(f"perilune {verb.name} ")]
     with_options = [command for command in commands if _read_command(verb, command)[1]]

@@ -11,17 +11,17 @@ from ...common.errors import InputError
 
 KINDS = ("override", "bias", "freeze")
 FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
-WRITTEN = re.compile(  # no dot next to the two that separate the ends of a window: 1...2 would be ambiguous
+WRITTEN = re.compile(  # 1...2 is rejected: the third dot could belong to either end of the window
     r"(?P<name>.+)=(?P<kind>[^=:@]+)(?::(?P<value>[^=:@]+))?@(?P<start>[^=:@]*?[^=:@.])(?:\.\.(?P<stop>(?!\.)[^=:@]*))?"
 )
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A connector's value replaced (override), shifted (bias) or held (freeze) in [start, stop) s.
+    """Fault that replaces (override), offsets (bias) or holds (freeze) a connector's value in [start, stop) s.
 
-    ``name`` is ``component.connector``: a fault on an output reaches every reader, one on an input only its component.
-    ``value`` is in the connector's unit and unused for a freeze. The text of a fault is readable by `parse_fault`.
+    ``name`` is ``component.connector``: a fault on an output reaches all readers, a fault on an input only its
+    component. ``value`` is in the connector's unit and unused for a freeze. `parse_fault` reads the text of a fault.
     Raises InputError for an unknown kind, a non-finite value or an empty window.
     """
 
@@ -57,7 +57,7 @@ def number_text(value: float | bool) -> str:
 
 
 def parse_fault(text: str, option: str = "`faults`") -> Fault:
-    """Return the fault that a text of the form `FORM` describes; without a second T it has no end.
+    """Return the fault that a text of the form `FORM` describes; without the second T the fault does not end.
 
     ``option`` is the name of the option in errors. Raises InputError.
     """
@@ -80,7 +80,7 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
 
 
 def faults_of(faults: Iterable[Fault | str]) -> list[Fault]:
-    """Return faults, converting texts. Raises InputError."""
+    """Return the faults, with texts converted by `parse_fault`. Raises InputError."""
     return [parse_fault(item) if isinstance(item, str) else item for item in faults]
 
 

@@ -1,8 +1,8 @@
 """Declaration of an option: a key of a TypedDict, ``name: Annotated[type, Option(text, default, ...)]``.
 
-Groups of options may inherit from one another. `options_of` reads the declarations, from which derive the parser of the
-command line, the signature of the Python function, printed commands, records in manifests and JSON, and the tables of
-the documentation.
+Groups of options may inherit from one another. `options_of` reads the declarations. The parser of the command line, the
+signature of the Python function, printed commands, records in manifests and JSON, and the tables of the documentation
+derive from them.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from enum import Enum
 from functools import cache
 from typing import Annotated, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
-EMPTY: Mapping[str, object] = types.MappingProxyType({})  # the empty default of an option with pairs
+EMPTY: Mapping[str, object] = types.MappingProxyType({})  # empty default of an option with pairs
 FilePath = str | os.PathLike[str]
 ParameterValue = float | int | bool | str
-SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
+SetValue = ParameterValue | Sequence[ParameterValue]  # value of a variable, or of all elements of a vector
 
 
 class StructuredArray(Protocol):
@@ -32,12 +32,12 @@ class StructuredArray(Protocol):
 class Option:
     """Declaration of an option; its name is the annotated key.
 
-    ``default`` is the value of an omitted option; a mutable default is an empty constant. ``flag`` is the name on the
-    command line if different: the singular for an option that may be repeated. ``above``, ``minimum`` and ``maximum``
-    bound a number. ``completer`` names a function of `verbs/options/completers`. ``comma`` allows several values in one
-    text, separated by commas. ``needs`` names the file option without which the option has no effect on the command
-    line. For a file, ``suffixes`` are the permitted ones, ``is_folder`` marks a folder, and ``writer`` is the method of
-    the result that writes it.
+    ``default`` is the value of an omitted option; the default of a mutable type is an empty constant. ``flag`` is the
+    name on the command line if different: the singular for an option that may be repeated. ``above``, ``minimum`` and
+    ``maximum`` bound a number. ``completer`` names a function of `verbs/options/completers`. ``comma`` allows several
+    values in one text, separated by commas. ``needs`` names the file option without which the option has no effect on
+    the command line. For a file, ``suffixes`` are the permitted suffixes of its name, ``is_folder`` marks a folder, and
+    ``writer`` is the method of the result that writes it.
     """
 
     text: str
@@ -54,7 +54,7 @@ class Option:
     suffixes: tuple[str, ...] = ()
     writer: str = ""
     is_folder: bool = False
-    form: str = field(default="NAME=VALUE")  # of an option with pairs
+    form: str = field(default="NAME=VALUE")  # form of a pair in help texts
 
 
 class Kind(Enum):
@@ -120,7 +120,7 @@ def members_of(annotation: object) -> tuple[object, ...]:
 def _choices(annotation: object) -> tuple[str, ...]:
     members = members_of(annotation)
     choices = [text for member in members if get_origin(member) is Literal for text in get_args(member)]
-    if not choices and len(members) == 1 and get_origin(members[0]) is not None:  # of the elements of a list
+    if not choices and len(members) == 1 and get_origin(members[0]) is not None:  # the choices of a list's elements
         inner = get_args(members[0])
         choices = list(_choices(inner[0])) if inner and get_origin(members[0]) is Sequence_ else []
     return tuple(choices)

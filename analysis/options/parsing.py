@@ -11,8 +11,8 @@ from .option import Declared, Kind, options_of
 from .system import SHARED
 from .values import read_value
 
-Completer = Callable[..., Iterable[str]]  # argcomplete's
-FindCompleter = Callable[[str], Completer]  # by the declared name, when a shell requests completions
+Completer = Callable[..., Iterable[str]]  # type of argcomplete's completers
+FindCompleter = Callable[[str], Completer]  # finds a completer by its declared name
 
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:

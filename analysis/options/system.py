@@ -179,10 +179,10 @@ class ReportFiles(JsonFile, total=False):
     open: Annotated[bool, Option("open the page of --report in a browser", False, needs="report")]
 
 
-# Options of several verbs, each named where its group has it.
+# Groups of options common to several verbs.
 Seed = Annotated[int | None, Option("root seed; default: the campaign's", metavar="S")]
 Workers = Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
 Overwrite = Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
 UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met or violated", False)]
 
-SHARED = {"system options": SystemKeywords, "simulation options": SimulationOptions}  # which --help-all explains
+SHARED = {"system options": SystemKeywords, "simulation options": SimulationOptions}  # groups explained by --help-all

@@ -1,1 +1,1 @@
-"""Campaigns in a browser: columns binned once, counts under a filter, served to this machine only."""
+"""Campaigns in a browser: columns are binned once, counted under filters, and served to this machine only."""

@@ -1,4 +1,4 @@
-"""Application of `perilune show`: one page, and counts and trials of the campaigns that it was started with.
+"""Web application of `perilune show`: its page, and the answers to requests for counts and trials.
 
 Requests identify campaigns, columns, variants and rows by number; no request names a file.
 """

@@ -19,10 +19,10 @@ from ..campaigns.folder.campaign_folder import CampaignFolder
 from ..campaigns.folder.files import IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
 from ..commands.campaigns import replay_of_folder
 
-ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
+ROW_LIMIT = 20_000_000  # rows of a campaign; a column then takes 40 MB
 NUMERIC = ("end_time",)
 ORDER = ("metric", "draw", "final", "end_time", "fault")
-DETAILS = ("status", "success")  # of a trial, in addition to its numbers
+DETAILS = ("status", "success")  # columns of a trial in addition to numbers
 
 
 class StoppedError(Exception):

@@ -14,7 +14,10 @@ from .scale import BARS, BINS, CHUNK, CODES, SHIFT
 
 
 class Counter:
-    """Computes the counts of a query. Raises InputError for damaged files, StoppedError after the server stopped."""
+    """Counter of a campaign's trials under the filters of queries.
+
+    Raises InputError for damaged files, StoppedError after the server stopped.
+    """
 
     def __init__(self, columns: BinnedColumns, names: Sequence[str], query: Query) -> None:
         self.campaign = columns.campaign
@@ -80,7 +83,7 @@ class Counter:
         return {index: binned[self._names[index]] for index in indices}
 
     def _grid(self, x: int, y: int) -> GridCounts:
-        """Count trials and failures over two columns, (BARS, BARS) from the bottom; or return few trials as dots."""
+        """Count trials and failures over two columns, (BARS, BARS) from the bottom; few trials are returned as dots."""
         mask = self.select_rows(x, y)
         mask = mask & (self._codes(x) < BINS) & (self._codes(y) < BINS)
         scales: GridCounts = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}

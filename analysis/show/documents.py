@@ -6,7 +6,7 @@ from typing import NotRequired, TypedDict
 
 
 class QuantityEntry(TypedDict):
-    """A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
+    """A column of a campaign; its numbers are in SI units, and ``factor`` converts them to ``unit``."""
 
     name: str
     unit: str
@@ -35,7 +35,7 @@ class CampaignEntry(TypedDict):
 
 
 class ShowDocument(TypedDict):
-    """Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms."""
+    """Campaigns, and the numbers of bins per column, of bars per histogram and of initial histograms."""
 
     campaigns: list[CampaignEntry]
     bins: int
@@ -44,7 +44,7 @@ class ShowDocument(TypedDict):
 
 
 class ScaleDocument(TypedDict):
-    """A range of numbers, linear if the knee is 0, else linear in asinh(x / knee)."""
+    """Scale over a range of numbers: linear if the knee is 0, else linear in asinh(x / knee)."""
 
     low: float
     high: float
@@ -52,7 +52,7 @@ class ScaleDocument(TypedDict):
 
 
 class HistogramCounts(TypedDict):
-    """Counts by variant: of the bars, then of NaN, infinity and minus infinity."""
+    """Numbers of trials of each variant in each bar, followed by those with NaN, infinity and minus infinity."""
 
     counts: list[list[int]]
     scale: ScaleDocument | None
@@ -69,7 +69,7 @@ class DotsDocument(TypedDict):
 
 
 class GridCounts(TypedDict):
-    """Trials over two columns: trials and failures per square, rows from the bottom; or few trials as dots."""
+    """Trials over two columns: trials and failures per square, in rows from the bottom, or dots if they are few."""
 
     x: ScaleDocument | None
     y: ScaleDocument | None
@@ -96,7 +96,7 @@ class Counts(TypedDict):
 
 
 class TrialEntry(TypedDict):
-    """A trial, the command that repeats it, and its numbers: null is NaN, a text is infinite."""
+    """A trial, the command that repeats it, and its numbers: NaN is null, and an infinite number is a text."""
 
     row: int
     trial: int

@@ -77,6 +77,6 @@ class Guard:
         return hmac.compare_digest(text.encode("latin-1", "replace"), self.token.encode())
 
     def _cookies(self, headers: Headers) -> list[str]:
-        # http.cookies fails at an unreadable cookie of another server on this host.
+        # http.cookies fails if another server on this host has set a cookie that it cannot read.
         named = [cookie_parser(header).get(self.cookie) for header in headers.getlist("cookie")]
         return [text for text in named if text is not None]

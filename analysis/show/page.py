@@ -15,7 +15,7 @@ from .documents import CampaignEntry, ShowDocument
 from .scale import BARS, BINS
 
 BUNDLE = "show"
-FIRST_FIGURES = 6  # histograms shown initially
+FIRST_FIGURES = 6  # number of histograms shown initially
 
 
 def show_page(campaigns: Sequence[OpenCampaign]) -> str:

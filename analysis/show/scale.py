@@ -11,20 +11,23 @@ import numpy as np
 
 from ..documents.interactive.columns import knee_of
 
-BINS = 4096  # of a scale: a filter begins and ends at their edges
-BARS = 64  # of a histogram, each of equally many bins
-SHIFT = 6  # bits between the number of a bin and that of its bar
+BINS = 4096  # bins of a scale; a filter begins and ends at edges of bins
+BARS = 64  # bars of a histogram, with equally many bins each
+SHIFT = 6  # the index of a bin shifted right by this is the index of its bar
 NAN, ABOVE, BELOW = (BINS + kind * (BINS // BARS) for kind in range(3))  # codes of non-finite numbers
 CODES = BARS + 3  # number of bars and codes of non-finite numbers
 SAMPLED = 100_000  # numbers sampled to choose between a linear and an asinh scale
 TINIEST = 1e-12  # least knee of an asinh scale relative to the greatest magnitude
-WHOLE = 1e9  # range up to which whole numbers have separate bars
+WHOLE = 1e9  # width of a range of whole numbers up to which bins are aligned with them
 CHUNK = 1 << 18  # numbers binned at a time
 
 
 @dataclass(frozen=True)
 class ColumnScale:
-    """Scale from ``low`` to ``high``, finite; with a ``knee`` in asinh: linear below the knee, logarithmic above it."""
+    """Scale from ``low`` to ``high``, both finite: linear, or with a ``knee`` linear in asinh(x / knee).
+
+    With a knee it is nearly linear below the knee, and logarithmic above it.
+    """
 
     low: float
     high: float
@@ -55,15 +58,15 @@ class ColumnScale:
 
 
 def make_scale(numbers: np.ndarray) -> ColumnScale | None:
-    """Return a scale that spans the finite numbers among (rows,), with all below its high end; None if there are none.
+    """Return a scale that spans the finite numbers of a column (rows,); None if it contains none.
 
-    Only the greatest double may equal the high end.
+    All numbers are below the high end, which only the greatest double may equal.
     """
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:
         return None
     low, high = float(finite.min()), float(finite.max())
-    if low == high:  # a range around it
+    if low == high:  # a nonzero range around the only number
         pad = 1e-3 * abs(low) or 1.0
         return ColumnScale(max(low - pad, -sys.float_info.max), min(high + pad, sys.float_info.max))
     greatest = max(abs(low), abs(high))

@@ -28,7 +28,7 @@ class CampaignServer:
     """Server of campaigns; ``address`` is the address of its page, including the token."""
 
     def __init__(self, folders: Sequence[Path], port: int = 0) -> None:
-        """Open campaigns and listen on ``port`` (0: any free one).
+        """Open campaigns and listen on ``port`` (0: any free port).
 
         Raises InputError for other folders and a port in use.
         """
@@ -67,7 +67,7 @@ class CampaignServer:
         )
         try:
             server.run(sockets=[self._socket])
-        except KeyboardInterrupt:  # uvicorn raises it again once everything is closed
+        except KeyboardInterrupt:  # raised again by uvicorn after everything is closed
             pass
         finally:
             self._stop()
@@ -109,7 +109,7 @@ class _Server(uvicorn.Server):
 
 def _listen(port: int) -> socket.socket:
     listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    if os.name == "posix":  # a port whose last connections are not closed yet; on Windows one that others listen to
+    if os.name == "posix":  # permits a port with unclosed connections; on Windows it would permit a port in use
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listening.bind((HOST, port))

@@ -55,7 +55,7 @@ def disperse(
 def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Sequence[int]) -> dict[str, LoopModel]:
     """Return the model of every channel's loop with the draws of one trial.
 
-    ``study`` is of a system that has the campaign's layer. Raises InputError, StudyError.
+    The system of ``study`` includes the campaign's layer. Raises InputError, StudyError.
     """
     study.bench.set(plan.parameters(study.prepared, trial))
     start = OperatingPoint(study.bench)
@@ -76,7 +76,7 @@ def vary(plan: BatchPlan) -> list[str]:
 def _dispersion(
     plan: BatchPlan, items: Sequence[LoopMargins], poles: np.ndarray, limits: MarginLimits, replay: Callable[[int], str]
 ) -> Dispersion:
-    # the least disk margin; among unstable loops the largest multiplier
+    # the trial with the least disk margin, or among unstable loops with the largest multiplier
     worst = min(
         range(len(items)), key=lambda place: (items[place].size(MarginQuantity.DISK), -(items[place].largest or 0.0))
     )

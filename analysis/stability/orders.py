@@ -1,7 +1,8 @@
 """Both orders of a study whose loops contain an FMU with undeclared dependencies: without and with its feedthrough.
 
-A component without feedthrough is stepped with the inputs of t_n, one with it with those of t_(n+1). The actual effect
-of inputs within a step is between the two, so their margins bracket the true ones as far as they depend on the step.
+A component without feedthrough is stepped with the inputs of t_n, a component with feedthrough with the inputs of
+t_(n+1). The actual effect of inputs within a step is between the two, so the margins of both orders bracket the true
+margins as far as these depend on the step.
 """
 
 from __future__ import annotations
@@ -26,10 +27,10 @@ Judgeable = LoopReport | JointReport | Dispersion
 def study_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) -> StabilityStudy:
     """Run the study ``make`` of a request, in both orders if a loop contains an undeclared FMU.
 
-    With several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. If all would
-    close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot be direct
-    is stepped as it must be. Sweeps and nonlinear elements are those of the simulated order. If no simulation with
-    feedthrough can be studied, verdicts without it are withheld. Raises as ``make`` does for the request.
+    With several such FMUs the extremes are studied: none with feedthrough, as simulated, and all with feedthrough. If
+    feedthrough of all would close an algebraic loop, the components at which the initialisation cuts this loop stay
+    without it. Sweeps and nonlinear elements are studied in the simulated order only. If no simulation with feedthrough
+    can be studied, the verdicts of the simulated order are withheld. Raises the errors of ``make`` for the request.
     """
     report = make(request)
     subject = Subject(request.system, request.options)
@@ -42,7 +43,7 @@ def study_both_orders(request: Request, make: Callable[[Request], StabilityStudy
         on_loops = _on_loops(prepared)
         fmus |= {name: prepared.network.fmus[name].name for name in feedthrough.undeclared if name in on_loops}
         cuts |= dict.fromkeys(feedthrough.cuts)
-    if not fmus or prepared.algorithm != "sequential":  # Jacobi's algorithm has one order
+    if not fmus or prepared.algorithm != "sequential":  # Jacobi's algorithm has only one order
         return report
     without: list[str] = []
     direct = list(fmus)
@@ -72,7 +73,7 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
     try:
         for point in request.declaration.points:
             trial.at(point)
-    except InputError:  # the system itself has been prepared before
+    except InputError:  # not of the system itself, which was prepared before
         return False
     return True
 
@@ -116,7 +117,7 @@ def _merge_verdicts(report: StabilityStudy, orders: Orders) -> StabilityStudy:
 
 
 def _withhold_verdict(lost: FailedStudy, other: StabilityStudy) -> FailedStudy:
-    """Withhold the verdict on a loop that fails without figures in only one order."""
+    """Withhold the verdict on a loop that fails without margins in only one order."""
     here = (lost.name, lost.point)
     fails = any((each.name, each.point) == here and each.verdict is MarginVerdict.FAIL for each in other.unstudied)
     unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
@@ -139,7 +140,7 @@ def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
 
 
 def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[MarginRequirement, ...]:
-    """Return the requirements of one order, each with that of the other order."""
+    """Return the requirements of one order, each with the same requirement in the other order."""
     by_title = {} if another is None else {other.title: other for other in another.requirements}
     paired = []
     for item in one.requirements:

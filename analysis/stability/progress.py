@@ -57,5 +57,5 @@ def begin(pipe: Connection) -> None:
 
 
 def tell_parent(expected: int, done: int) -> None:
-    assert _pipe is not None  # the process has begun with it
+    assert _pipe is not None  # set by `begin`
     _pipe.send((expected, done))

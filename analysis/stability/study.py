@@ -45,7 +45,7 @@ class PointResult:
 
 
 def study(request: Request, replay: Replay, workers: int | None = None) -> StabilityStudy:
-    """Study everything, with points in parallel in ``workers`` processes (None: one per processor).
+    """Study all parts of a request, with points in parallel in ``workers`` processes (None: one per processor).
 
     Both orders of FMUs with undeclared dependencies are studied if necessary. The report does not depend on the number
     of workers. ``replay`` is a function that other processes can import. Raises InputError, and StudyError if no
@@ -98,7 +98,10 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
 
 
 def study_point(request: Request, replay: Replay, point: PointDeclaration, tell: Tell) -> PointResult:
-    """Study one point with all its loops; progress counts each, and the linear model. Raises InputError, StudyError."""
+    """Study one point with all its loops; each loop and the linear model count as a step of progress.
+
+    Raises InputError, StudyError.
+    """
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
@@ -182,7 +185,7 @@ def _vary(
         try:
             limits = request.declaration.limits
             spread = disperse(subject, request.plan, point, loops, limits, cells, partial(replay, request), tell)
-        except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
+        except (StudyError, InputError) as error:  # input was checked before, but a trial may end early
             unstudied.append(FailedStudy(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:
         report.sampling = steps.get(report.name, ())

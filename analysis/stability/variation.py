@@ -21,7 +21,7 @@ from .results.varied import StepMargins, SweepCrossing, SweepReport
 
 VALUES = 13
 CROSSING = 1e-3  # relative, of the value at which a limit is reached
-FAR = 1e3  # dB, deg: what an infinite margin counts as
+FAR = 1e3  # dB or deg, substitute for an infinite margin
 
 At = Callable[[float], LoopMargins]
 FACTORS = (0.5, 1.0, 2.0)  # factors on the communication step
@@ -118,7 +118,7 @@ def vary_step(
 ) -> dict[str, tuple[StepMargins, ...]]:
     """Compute margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
-    ``cells`` are the relevant memory cells at this point. If there are no margins the note explains why.
+    ``cells`` are the relevant memory cells at this point. If margins do not exist the note explains why.
     """
     tell(len(FACTORS), 0)
     by_factor = []

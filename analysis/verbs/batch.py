@@ -62,8 +62,8 @@ class BatchResult(Documented, results.CampaignResult):
     def rank_correlations(self, variant: str | None = None) -> dict[str, dict[str, float | None]]:
         """Return Spearman's rank correlation of each metric with each sampled input, by metric and input.
 
-        ``variant`` is by default the first one. Only trials in which the metric is a number count; None if these are
-        too few or a column is constant. Raises KeyError for an unknown variant.
+        ``variant`` is by default the first one. Trials in which the metric is not a number are left out; a correlation
+        is None if too few trials remain or a column is constant. Raises KeyError for an unknown variant.
         """
         rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
         campaign = self.plan.campaign
@@ -103,11 +103,11 @@ class BatchResult(Documented, results.CampaignResult):
 def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions]) -> BatchResult:
     """Simulate a campaign of a system, a name or the path of a .toml file: `perilune batch`.
 
-    All variants and all FMUs in ``compare`` simulate the same samples. Results in the folder ``output`` are an error
-    unless ``overwrite`` or ``resume`` is set. ``faults`` are injected in every trial, after the campaign's own, and
-    every trial has the same ``input``. A trial that exceeds ``timeout`` (s, wall clock) ends as ``timed_out`` and is no
-    success; the campaign continues. In ``set`` a text "low:high:step" is a sweep. ``require`` are expressions over
-    numbers of the summary; see `BatchResult.problems`. Raises InputError.
+    All variants, and all FMUs in ``compare``, are simulated with the same samples. A folder ``output`` that contains
+    results is an error unless ``overwrite`` or ``resume`` is set. ``faults`` are injected in every trial, after the
+    faults of the campaign, and every trial has the same ``input``. A trial that exceeds ``timeout`` (s, wall clock)
+    ends as ``timed_out`` and is not a success; the campaign continues. In ``set`` a text "low:high:step" is a sweep.
+    ``require`` lists expressions over numbers of the summary; see `BatchResult.problems`. Raises InputError.
     """
     folder = None if options["output"] is None else Path(options["output"])
     if options["resume"] and folder is None:

@@ -31,7 +31,7 @@ from .common.stores import check_stored_system
 from .options.design import BOUNDS, BoundsOptions
 
 LOOKUP = "bound"  # name of the lookup computed here
-DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg and s
+DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of the lookup's table, in kg and s
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArc
     """Return the bound's inputs of all trials, and the system. Raises InputError, also if variants differ in inputs."""
     where = _element_of(lookup)
     check_roles({name: len(formulas) for name, formulas in lookup.inputs.items()}, where)
-    plan = replace(plan, campaign=replace(plan.campaign, lookups=(), metrics=()))  # its table may be missing
+    plan = replace(plan, campaign=replace(plan.campaign, lookups=(), metrics=()))  # the lookup's table may be missing
     systems = prepare_variants(plan)
     check_draws(plan, systems.values())
     table = plan.draws.of_part(range(plan.campaign.trials))

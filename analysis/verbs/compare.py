@@ -79,8 +79,8 @@ class Comparison(Documented, comparison.CampaignComparison):
 def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOptions]) -> Comparison:
     """Compare variants of stored campaigns side by side: `perilune compare`.
 
-    ``results`` are folders that `batch` wrote to its ``output``, as arguments or a list; all must have simulated the
-    same samples. Raises InputError.
+    ``results`` are folders that `batch` wrote to its ``output``, as arguments or a list; the samples of all campaigns
+    must be the same. Raises InputError.
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:

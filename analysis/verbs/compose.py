@@ -53,10 +53,11 @@ class Composition(Documented):
 def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
     """Write a system's SSD from its `system.toml`, or the `system.toml` of a system: `perilune compose`.
 
-    ``what`` is the path of a .toml file, next to which SystemStructure.ssd is written, or a system. The `system.toml`
-    of a system is the result's ``toml``; with ``output`` it is written there with its annotations, and into another
-    folder also with the files that it refers to. An SSD that was edited is not overwritten, and nothing is written for
-    a system that cannot be simulated. Raises InputError, with a line for each problem.
+    ``what`` is the path of a .toml file, next to which SystemStructure.ssd is written, or a system, whose `system.toml`
+    is the text ``toml`` of the result. ``output`` is the path at which this file is written, with its annotations; the
+    files that it refers to are written with it if the folder is not the system's. An SSD that was edited is not
+    overwritten, and nothing is written for a system that cannot be simulated. Raises InputError, with a line for each
+    problem.
     """
     path, output = Path(what), options["output"]
     if path.suffix != ".toml":
@@ -84,7 +85,7 @@ def compose_file(path: Path) -> tuple[SystemSource, bytes]:
 
 
 def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, files: Mapping[str, bytes]) -> bytes:
-    """Return the SSD of a system in a folder, with its mark; ``files`` (by archive name) are added to the folder.
+    """Return the SSD of a system in a folder, marked with its source; add ``files`` (by archive name) to the folder.
 
     ``raw`` is the content of ``file``, the `system.toml`. Raises InputError for a system that cannot be simulated.
     """

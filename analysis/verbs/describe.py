@@ -34,7 +34,7 @@ from .common.documented import Documented
 class Description(Documented, dict[str, Any]):
     """Description of a system, an FMU, a component or a slot, by key; see `describe`.
 
-    ``prepare`` prepares what has a block diagram: a system, or an FMU that can be simulated alone.
+    ``prepare`` prepares the system of the block diagram: a system, or an FMU that can be simulated alone.
     """
 
     prepare: Callable[[], PreparedSystem] | None = None

@@ -20,7 +20,7 @@ from .common.documented import Documented
 
 @dataclass(frozen=True, eq=False)
 class Differences(Documented):
-    """Differences of two runs: ``runs.signals`` by falling relative difference, each with its values in both runs.
+    """Differences of two runs: ``runs.signals`` in order of falling relative difference, with the values in both runs.
 
     Signals within ``tolerance`` (default: `LISTING`) are summarised.
     """
@@ -55,6 +55,6 @@ def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> D
     only one run has it. Raises InputError.
     """
     tolerance = options["tolerance"]
-    if tolerance is not None and not tolerance >= 0.0:  # NaN fails, too
+    if tolerance is not None and not tolerance >= 0.0:  # rejects NaN, too
         raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction such as 1e-6")
     return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), tolerance)

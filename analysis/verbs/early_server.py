@@ -1,4 +1,4 @@
-"""Early start of the server for simulation processes, parallel to other slow imports of a command."""
+"""Early start of the server for simulation processes, in parallel with other slow imports of a command."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
         raise
     except SubsetError as error:
         raise SeveralProblemsError(*(f"{error.block}: {violation}" for violation in error.violations)) from error
-    except ValueError as error:  # of a block: its declaration, its imports
+    except ValueError as error:  # from a block: its declaration or its imports
         raise SeveralProblemsError(" ".join(str(error).split())) from error
     if flavour is None and "native" not in written.flavours and not available_platforms():
         warnings.warn("no C compiler found: the Python flavour only; pip install ziglang for both", stacklevel=2)

@@ -37,7 +37,7 @@ class SystemFiles:
 
 @dataclass(frozen=True)
 class FmuEntry:
-    """An FMU: its interface as a slot (None without one), its description, the flavours that are built."""
+    """An FMU: its interface as a slot (or None), its description, and the flavours that are built."""
 
     interface: str | None
     description: str
@@ -46,7 +46,7 @@ class FmuEntry:
 
 @dataclass(frozen=True)
 class Inventory(Documented):
-    """Available ``systems`` and ``fmus`` by name, including the working folder; names of ``laws`` and ``searches``.
+    """Available ``systems`` and ``fmus`` by name, also of the working folder, and names of ``laws`` and ``searches``.
 
     ``campaigns_only`` restricts the listing of systems to their campaigns.
     """

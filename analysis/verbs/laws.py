@@ -46,7 +46,7 @@ class Law(Documented, laws.NetworkOperator):
         super().write(Path(path))
 
     def write_parameters(self, path: FilePath, component: str | None = None) -> None:
-        """Write the parameter set (.ssv) of the law for ``component``, by default the law's."""
+        """Write the parameter set (.ssv) of the law for ``component``, by default the component of the law."""
         write_atomically(Path(path), parameter_set(self, component or self.component))
 
     def write_graph(self, path: FilePath) -> None:

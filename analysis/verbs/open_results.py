@@ -109,8 +109,8 @@ def _varies(values: np.ndarray) -> bool:
 class StoredResults(OpenedResults):
     """A campaign's folder as of its opening; data are read when they are requested.
 
-    ``columns`` are units and descriptions by name, ``trials`` is the number of trials per variant, ``flown`` the number
-    of those available, and ``provenance`` lists what the numbers depend on.
+    ``columns`` are units and descriptions by name, ``trials`` is the number of trials per variant, ``flown`` is the
+    number of stored trials per variant, and ``provenance`` lists what the numbers depend on.
     """
 
     def __repr__(self) -> str:

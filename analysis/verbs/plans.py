@@ -161,10 +161,10 @@ def plan_landing_bound(
 ) -> LandingBound:
     """Compute a lower bound on the propellant of a single-burn braking and landing: `perilune design bound`.
 
-    Needs the extra `plan`. ``landing`` and ``vehicle`` are by default those of the ``system``, if it declares a bound,
-    else the published case; keywords replace single numbers of them (``climb`` in deg). ``direct`` verifies the bound
-    by a direct method. ``store`` writes it to the system's folder for the pages of its simulations. Raises InputError
-    and PlanError.
+    Needs the extra `plan`. ``landing`` and ``vehicle`` default to the bound that the ``system`` declares, if any, else
+    to the published case; keywords replace single numbers of them (``climb`` in deg). ``direct`` verifies the bound by
+    a direct method. ``store`` writes the bound to the system's folder for the pages of its simulations. Raises
+    InputError and PlanError.
     """
     chosen = system_options(options)
     if system is None and chosen != SystemOptions():

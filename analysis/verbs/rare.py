@@ -18,7 +18,7 @@ from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import RequirementResult, conditions, results_folder, store_result
 
-NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which requirements are
+NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # numbers to which requirements may refer
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,13 +41,13 @@ class RareResult(RequirementResult, outcome.RareOutcome):
 def rare(system: FilePath, campaign: FilePath, **options: Unpack[RareOptions]) -> RareResult:
     """Estimate the probability of a rare failure over a campaign's dispersions and noise: `perilune rare`.
 
-    The method is subset simulation. ``failure`` is an expression over metrics and sampled inputs; by default a trial
-    fails if it is no success. ``samples`` is the number of simulations per level; the search ends once a failure is
-    less probable than ``least``. ``hold`` fixes dispersed inputs.
+    The method is subset simulation. ``failure`` is an expression over metrics and sampled inputs; by default every
+    trial that is not a success is a failure. ``samples`` is the number of simulations per level; the search ends once a
+    failure is less probable than ``least``. ``hold`` fixes dispersed inputs.
 
     Noise of components is random, unless ``noise_trial`` selects the noise of one trial of the campaign for all
     simulations: the probability is then conditional on this realisation. ``compare`` selects the FMU of a slot that the
-    campaign compares. ``output`` is a folder for rare.json, flights.parquet and failures.parquet; ``require`` are
+    campaign compares. ``output`` is a folder for rare.json, flights.parquet and failures.parquet; ``require`` lists
     expressions over probability, interval[1], interval[2] and flights. Other options are as in `batch`. Raises
     InputError.
     """

@@ -34,7 +34,7 @@ OF_A_FOLDER = {
     "timeout",
     "require",
     *TrustOptions.__annotations__,
-}  # options that go with a campaign's folder
+}  # options that are permitted with a campaign's folder
 
 
 @dataclass(repr=False, kw_only=True)
@@ -42,7 +42,7 @@ class ReplayResult(Result):
     """A trial of a campaign simulated again with every signal; see `Result` for its members, plots and page.
 
     ``replayed`` is the trial within its campaign: ``configuration``, outcome, faults, and differences from the stored
-    trial, of which there are none on the machine that simulated the campaign.
+    trial. There are no differences on the machine that simulated the campaign.
     """
 
     replayed: ReplayedTrial
@@ -133,8 +133,8 @@ def replay(source: FilePath, trial: int, **options: Unpack[ReplayOptions]) -> Re
     """Repeat a trial of a campaign, identical to the last bit and with all signals: `perilune replay`.
 
     ``source`` is a folder of `batch`, or with ``campaign`` a system; ``configuration`` selects a variant if there are
-    several. ``timeout`` (s, wall clock) replaces that of the campaign. Other options are as in `batch` and apply to a
-    system only, since a folder defines its own. Raises InputError, and TimeoutError if a step of an FMU does not
+    several. ``timeout`` (s, wall clock) replaces the timeout of the campaign. Other options are as in `batch` and apply
+    to a system only, since a folder defines its own. Raises InputError, and TimeoutError if a step of an FMU does not
     return.
     """
     with chdir(Path.cwd()):  # an FMU may change the folder

@@ -69,7 +69,7 @@ def output_result(verb: Verb, result: Documented, files: Mapping[str, Any]) -> E
     else:
         for line in result.lines():
             print(name_by_flags(line, flags))
-    for name in reversed(list(declared)):  # first the verb's own files, then its page, last the JSON document
+    for name in reversed(list(declared)):  # the verb's files first, then its page, finally the JSON document
         path, writer = files.get(name), declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:
             written.write(Path(path), partial(_call, result, writer))

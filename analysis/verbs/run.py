@@ -36,7 +36,7 @@ from ..runtime.system.series import read_series
 from .common.arguments import read_requirements
 from .common.documented import Documented
 
-if TYPE_CHECKING:  # imported where needed: half of the time of a run without them
+if TYPE_CHECKING:  # imported where needed: they take as long as a run without them
     from matplotlib.figure import Figure as Plot
 
     from ..documents.diagram.diagram import BlockDiagram
@@ -48,9 +48,11 @@ STUCK = "nothing is written; see the FMU's messages with `log` all, or give a lo
 class Result(Documented, results.FlightResult):
     """Result of a simulation: ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight`.
 
-    ``prepared`` is the simulated system, ``figures`` are those that its SSD declares for `report`, ``faults`` the
-    injected faults, ``requirements`` the expressions of the option ``require``. ``command`` repeats the simulation,
-    with its input over time unless that was an array.
+    - ``prepared``: the simulated system.
+    - ``figures``: figures that its SSD declares for `report`.
+    - ``faults``: injected faults.
+    - ``requirements``: expressions of the option ``require``.
+    - ``command``: command that repeats the simulation, with its input over time unless that was an array.
     """
 
     prepared: PreparedSystem

@@ -25,7 +25,7 @@ if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SensitivityResult(StoredResult, study.SensitivityOutcome):
-    """Sobol' indices of metrics and success: `of` returns those of one, ``ranks`` are the rank correlations."""
+    """Sobol' indices of metrics and success, and rank correlations; `of` returns the indices of one metric."""
 
     def document(self) -> Document:
         """Return a document with indices, rank correlations and conditions."""

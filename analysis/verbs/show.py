@@ -49,7 +49,7 @@ def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]
 def _refuse_running_loop() -> None:
     try:
         asyncio.get_running_loop()
-    except RuntimeError:  # asyncio's sign that no loop runs
+    except RuntimeError:  # raised by asyncio if no event loop runs
         return
     raise InputError(
         "show", "", "an event loop is already running, as in a notebook", "run perilune show in a terminal"

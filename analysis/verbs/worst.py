@@ -25,7 +25,7 @@ from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Conditions, RequirementResult, conditions, results_folder, store_result
 
-NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
+NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # numbers to which requirements may refer
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,11 +70,12 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     ``loop``.
 
     ``sigmas`` bounds normal inputs; others have their full range. ``flights`` is the number of simulations, by default
-    2000, or 500 for a margin. If components have noise, every point is simulated with the same ``realisations`` of it
-    (by default 5, or 1 for a margin), whose ``quantile`` (default: 0.5, the median) is maximised; the worst point gets
-    ten times as many new ones. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for
-    worst.json, flights.parquet and worst.parquet; ``require`` are expressions over worst, random, fresh_worst,
-    fresh_quantile and flights. Other options are as in `batch`. Raises InputError.
+    2000, or 500 for a margin. If components have noise, every point is simulated with the same ``realisations`` of the
+    noise (by default 5, or 1 for a margin), and the search maximises the ``quantile`` (default: 0.5, the median) over
+    them; the worst point is simulated again with ten times as many new realisations. ``hold``, ``noise_trial`` and
+    ``compare`` are as in `rare`; ``output`` is a folder for worst.json, flights.parquet and worst.parquet; ``require``
+    lists expressions over worst, random, fresh_worst, fresh_quantile and flights. Other options are as in `batch`.
+    Raises InputError.
     """
     folder = results_folder(options)
     loop = options["loop"]

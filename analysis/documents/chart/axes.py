@@ -61,7 +61,7 @@ def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *,
 
 
 def lane_axis(labels: Sequence[str], ends: tuple[float, float] | None = None, *, size: float = LABEL_SIZE) -> Axis:
-    """Return the ordinate of lanes at 0, 1, ..., the first at the top, without tick marks or grid lines."""
+    """Return the ordinate of lanes, horizontal strips at 0, 1, ... from the top, without tick marks or grid lines."""
     low, high = ends or (len(labels) - 0.4, -0.6)
     ticks = [(float(index), label) for index, label in enumerate(labels)]
     return replace(named_axis((low, high), ticks), size=size, grid=False, marked=False)

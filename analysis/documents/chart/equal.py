@@ -16,7 +16,7 @@ ROUNDS = 4  # iterations: other ends have other tick labels, which need other sp
 def equal_ends(x: Ends, y: Ends, width: float, height: float) -> tuple[Ends, Ends]:
     """Return the ends of both axes, one of them widened about its middle so that the scales are equal.
 
-    ``width`` and ``height`` are those of the plotting area.
+    ``width`` and ``height`` are the dimensions of the plotting area.
     """
     unit = max(abs(x[1] - x[0]) / width, abs(y[1] - y[0]) / height)
     return _widen(x, unit * width), _widen(y, unit * height)

@@ -72,7 +72,7 @@ def lay_out_fluid(
 
 
 def axes_size(chart: Chart, width: float, height: float) -> tuple[float, float]:
-    """Return the size (pt) of the plotting area in a figure of this size; if `Fluid`, on a narrow screen."""
+    """Return the size (pt) of the plotting area in a figure of this size; with `Fluid` margins, on a narrow screen."""
     across, up = width * chart.box[2], height * chart.box[3]
     if not chart.fluid:
         return across, up
@@ -99,7 +99,7 @@ def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
 
 
 def _iterate_thinner_ticks(axis: Axis) -> Iterator[Sequence[int]]:
-    """Yield ever smaller selections of ticks: every second, third, ... name; of numbers multiples of a round step."""
+    """Yield ever smaller selections of ticks: every second, third, ... name, or the multiples of a round step."""
     everything: Sequence[int] = range(len(axis.ticks))
     yield everything
     at = np.array([each for each, _ in axis.ticks])

@@ -23,9 +23,9 @@ def line(
     unit: str = "",
     metric: str = "",
 ) -> Curve:
-    """Return a line through points, [rows]; dashes are in multiples of the line width, ``unit`` as displayed.
+    """Return a line through points, [rows]; dashes are in multiples of the line width, ``unit`` is the displayed unit.
 
-    With ``metric`` the line is the distribution of that column over the trials of the variant ``name``.
+    With ``metric`` the line is the distribution of this column over the trials of the variant ``name``.
     """
     return Curve(
         x=np.asarray(x, dtype=float),

@@ -33,9 +33,9 @@ def chart_panel(
 ) -> FigurePanel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must be unique among the figures of a page.
 
-    A chart with a box keeps it, others are laid out; text has the same size at any width. ``title`` is above the axes;
-    ``kind`` is an additional CSS class; ``trials`` returns the positions of marks of trials; ``reduced`` embeds only
-    envelopes of the curves. A chart whose numbers exceed the resolution of the page remains a picture.
+    A chart that has a box keeps it, other charts are laid out; text has the same size at any width. ``title`` is above
+    the axes, and ``kind`` is an additional CSS class. ``trials`` returns the positions of marks of trials. ``reduced``
+    embeds only envelopes of the curves. A chart whose numbers exceed the resolution of the page remains a picture.
     """
     across, up = POINTS * width, POINTS * height
     placed = chart if chart.box != NO_BOX else lay_out_fluid(chart, across, up, title=title)

@@ -33,11 +33,11 @@ def plot_charts(
     key: Sequence[str] = (),
     trials: TrialPositions = no_trials,
 ) -> Figure:
-    """Return a figure of charts, row by row; ``height`` and ``width`` (in) are those of one chart.
+    """Return a figure of charts, row by row; ``height`` and ``width`` (in) are the dimensions of one chart.
 
-    A chart with a box keeps it, others are laid out; in a single column the axes are aligned. ``titles`` are above the
-    axes, as are ``legends``, the labels of each chart's first curves. ``key`` are labels of the first curves common to
-    all charts, above the figure. ``trials`` returns the positions of marks of trials.
+    A chart that has a box keeps it, other charts are laid out; in a single column the axes are aligned. ``titles`` and
+    ``legends``, the labels of each chart's first curves, are above the axes. ``key`` contains the labels of first
+    curves common to all charts, and is above the figure. ``trials`` returns the positions of marks of trials.
     """
     texts = [*titles, *[""] * (len(charts) - len(titles))]
     labels = [*legends, *[()] * (len(charts) - len(legends))]

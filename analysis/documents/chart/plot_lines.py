@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 class QuantityLine(Line2D):
     """A line over time or over another quantity.
 
-    ``quantity`` is in SI, [rows]; multiplied by ``factor`` it is drawn in ``unit``. ``time`` (s, [rows]) is stated if
-    the abscissa is another quantity, ``metric`` if the line is its distribution over the trials of the variant
-    ``name``.
+    ``quantity`` is in SI, [rows]; ``factor`` converts it to the drawn ``unit``. ``time`` (s, [rows]) is stated if the
+    abscissa is another quantity. ``metric`` is stated if the line is the distribution of this metric over the trials of
+    the variant ``name``.
     """
 
     def __init__(

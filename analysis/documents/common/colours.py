@@ -1,6 +1,6 @@
 """Colours of figures (Okabe and Ito, distinguishable by colour-blind readers) and of light and dark pages.
 
-Style sheets have them as custom properties, `colour_properties`, scripts in web/generated/colours.ts.
+Style sheets receive them as custom properties from `colour_properties`, scripts from web/generated/colours.ts.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ class CellGrid(NamedTuple):
 
 
 def notebook_view(title: str, words: Iterable[str], grids: Iterable[CellGrid], plot: Plot | None) -> str:
-    """Return the HTML of a result; of a long table the first rows and their total number."""
+    """Return the HTML of a result; a long table is cut to its first rows, followed by the number of all rows."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     picture = None
     if plot is not None:  # text as paths, with identifiers unique among the notebook's figures

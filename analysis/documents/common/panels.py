@@ -22,7 +22,7 @@ KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
 class FigurePanel(NamedTuple):
-    """A figure with its label as heading, the label's look if it is a contender, and its legend."""
+    """A figure with its label as heading, the label's look if it names a variant, and its legend."""
 
     label: str
     figure: Drawing
@@ -30,7 +30,7 @@ class FigurePanel(NamedTuple):
 
 
 def choose_length_unit(values: np.ndarray) -> tuple[float, str]:
-    """Return factor and unit to display lengths in m: km if one is long, else m."""
+    """Return factor and unit to display lengths in m: km if any length is long, else m."""
     return (1e-3, "km") if values.size and np.nanmax(np.abs(values)) >= KILOMETRES else (1.0, "m")
 
 

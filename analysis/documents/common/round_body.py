@@ -45,8 +45,9 @@ def track_angles(
     """Return angles (rad) along and across the great circle through the target that best fits a track.
 
     ``position`` is [3, n]; ``target``, [3], is by default the origin of the frame. The angle along is 0 at the target,
-    grows in the direction of flight, and is continuous beyond half the circumference; the row nearest to the target is
-    within half of it. Non-finite rows are NaN. A track without a direction, straight up or at rest, is taken along x.
+    grows in the direction of flight, and is continuous beyond half the circumference; at the row nearest to the target
+    its magnitude is at most pi. Non-finite rows are NaN. A track without horizontal direction, vertical or at rest, is
+    treated as a track along x.
     """
     centre = np.array([0.0, 0.0, -radius])
     up = (np.zeros(3) if target is None else target) - centre
@@ -77,7 +78,7 @@ def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
     """Return the unit normal, [3], of the great circle that best fits a track, [3, n], around a ``centre``.
 
     The circle passes through the point above the centre, along z. The track turns about the normal in the direction of
-    flight. A track without a direction is taken along x.
+    flight. A track without horizontal direction is treated as a track along x.
     """
     direction = position[:, np.all(np.isfinite(position), axis=0)] - np.array(centre)[:, None]
     return _normal(direction / np.linalg.norm(direction, axis=0), np.array([0.0, 0.0, 1.0]))

@@ -1,8 +1,8 @@
 """Drawing of the diagram as SVG: text remains text, reproducible to the byte. Lengths are in px.
 
-Groups of class ``block`` and ``edge`` list their signals in ``data-signals`` as JSON: those of a block, or those from
-which an edge takes its values, in the order of its ``data-targets``. A parameter in the list of a block is a group of
-class ``parameter`` with both attributes.
+Groups of class ``block`` list the signals of the block in ``data-signals`` as JSON. Groups of class ``edge`` list there
+the signals from which the edge takes its values, in the order of its ``data-targets``. A parameter in the list of a
+block is a group of class ``parameter`` with both attributes.
 """
 
 from __future__ import annotations

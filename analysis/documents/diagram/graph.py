@@ -52,7 +52,7 @@ class Edge:
     """One or more connections from one port to another; ``pairs`` are their sources and targets by flat name.
 
     ``elements`` are the connected elements of both ends, such as ``[1..2]``, or empty for whole vectors in order and
-    for scalars. ``change`` describes a conversion of the values: of units, a transformation, a sum.
+    for scalars. ``change`` describes a conversion of the values: a change of units, a transformation, or a sum.
     """
 
     source: PortKey

@@ -128,7 +128,7 @@ class _GraphReader:
         return node.kind, node.unit.name if node.unit else connector.unit
 
     def sizes(self, block: DiagramBlock, element: Element) -> Vectors:
-        """Return the vectors of an element; of an FMU those of all its variables, not only of declared connectors."""
+        """Return the vectors among an element's connectors, or among all variables of an FMU."""
         fmu = self.network.fmus.get(block.path) if isinstance(element, Component) else None
         return vectors_of(element.connectors if fmu is None else fmu.variables)
 

@@ -33,7 +33,7 @@ def columns_of(boxes: Iterable[PlacedBlock | Terminal]) -> list[BoxColumn]:
 
 
 def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]]) -> list[range]:
-    """Return the columns of each row: as few rows as `WIDEST` allows, with as many edges as possible in rows.
+    """Return the columns of each row: as few rows as `WIDEST` allows, with as many edges as possible within rows.
 
     ``arcs`` are the columns that each edge connects. Among equal solutions the most uniform widths are chosen. The
     method is dynamic programming over the ends of rows.

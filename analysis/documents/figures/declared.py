@@ -154,7 +154,7 @@ class PulsesFigure(FigureDeclaration):
     """Pulses of jets: signed ``lengths`` (s), one per axis; a pulse starts at its sample.
 
     A change of ``count`` signals new pulses; if it is None, every sample has new ones. ``remainder`` (s, one per axis)
-    is the impulse demanded but not fired, ``total`` the thruster on-time so far.
+    is the pulse length demanded but not fired, and ``total`` is the thruster on-time so far.
     """
 
     lengths: Signal

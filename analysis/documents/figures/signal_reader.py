@@ -106,7 +106,7 @@ class SignalReader(AnnotationReader):
         return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """Return one label per element: those of the figure, else the frame's axis names, else indices.
+        """Return one label per element: the figure's labels, else the frame's axis names, else indices.
 
         A scalar has one empty label.
         """

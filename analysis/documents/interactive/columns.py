@@ -1,9 +1,9 @@
 """Columns of numbers inside a page, compact enough for e-mail.
 
-A column is float32; or, for figures that need no more, 16 bits over its range: linear, or if it spans decades in asinh,
-which is linear below a knee and logarithmic above it. Because consecutive rows of a simulation are similar, second
-differences of the numbers, as integers in the order of their bits, are small; their bytes, grouped by significance,
-deflate well. web/page/columns.ts is the inverse.
+The numbers of a column are float32 or, for figures that need no more, 16-bit steps over its range. The steps are linear
+or, if the range spans decades, linear in asinh(x / knee): linear below the knee and logarithmic above it. Because
+consecutive rows of a simulation are similar, second differences of the numbers, as integers in the order of their bits,
+are small; their bytes, grouped by significance, deflate well. web/page/columns.ts is the inverse.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ VARIABLES = {
 
 
 def description_document(content: Mapping[str, Any]) -> Document:
-    """Return the document of a description; its content tells what is described."""
+    """Return the document of a description; its keys show whether it is of a system, an FMU, a slot or a campaign."""
     if "components" in content:
         title, nodes = content["system"], _system(content)
     elif "campaign" in content:

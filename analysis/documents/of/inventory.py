@@ -13,7 +13,7 @@ LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
 
 
 def inventory_document(content: Mapping[str, Any], lists: Sequence[str] = LISTS) -> Document:
-    """Return the document of an inventory from its JSON; of each system these ``lists`` are included."""
+    """Return the document of an inventory from its JSON; ``lists`` are the keys of a system's lists to include."""
     nodes: list[Node] = []
     for name, system in content["systems"].items():
         rows = [[title.replace("_", " "), ", ".join(system[title]) or "none"] for title in lists]

@@ -22,7 +22,7 @@ from .view import BodyView, FlightName, SceneView, SiteView, find_origin, ground
 
 @dataclass(frozen=True)
 class RecordedFlight:
-    """A trial of a variant with its recorded signals; ``colour`` is its variant's, ``label`` its name in a view."""
+    """A trial of a variant with its recorded signals, the variant's colour, and the trial's label in a view."""
 
     name: FlightName
     label: str

@@ -12,7 +12,7 @@ from ..figures.scene.declared import Arrow, Body, SceneFigure, Thrust, ThrustAxi
 
 
 def scene_notes(scene: SceneFigure, result: FlightResult) -> list[str]:
-    """Return the sentences below a view, and those on its omissions."""
+    """Return the sentences below a view, and sentences on what it omits."""
     return [
         frame_note(scene),
         size_note(scene.bodies),

@@ -1,1 +1,1 @@
-"""Verbs that need no names of higher layers; those of design, and the list of all verbs, are in `verbs/options`."""
+"""Declarations of verbs that depend on no higher layer; `verbs/options` has the verbs of design and the list of all."""

@@ -77,7 +77,7 @@ OF_CAMPAIGN = "a requirement of the campaign is not met or undecided, a --requir
 
 
 class CampaignOptions(SystemKeywords, SimulationOptions, total=False):
-    """Options of everything that simulates a campaign"""
+    """Options of all simulations of a campaign"""
 
     seed: Seed
     compare: Annotated[
@@ -91,7 +91,7 @@ class CampaignOptions(SystemKeywords, SimulationOptions, total=False):
 
 
 class TrialsOptions(TypedDict, total=False):
-    """Which trials a campaign has"""
+    """Choice of trials"""
 
     trials: Annotated[int | None, Option("number of trials; default: the campaign's", metavar="N")]
     draws: Annotated[
@@ -105,7 +105,7 @@ class TrialsOptions(TypedDict, total=False):
 
 
 class ExecutionOptions(TypedDict, total=False):
-    """Where simulations run"""
+    """Execution of simulations"""
 
     workers: Workers
     engine: Annotated[
@@ -123,7 +123,7 @@ class ShardOptions(ExecutionOptions, TrustOptions, total=False):
 
 
 class MetricsOptions(TypedDict, total=False):
-    """Which metrics are printed"""
+    """Choice of printed metrics"""
 
     metrics: Annotated[
         Sequence[str],

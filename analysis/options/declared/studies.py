@@ -11,7 +11,7 @@ from ..option import EMPTY, FilePath, Option
 from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemKeywords, Workers
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
 
-PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # of the examples
+PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # campaign of the examples
 
 
 class StabilityOptions(SystemKeywords, TrialsOptions, total=False):
@@ -78,7 +78,7 @@ STABILITY = Verb(
 
 
 class ConditionOptions(TypedDict, total=False):
-    """What a study keeps constant, and where it writes"""
+    """Fixed inputs, noise and workers of a study"""
 
     hold: Annotated[
         Mapping[str, float], Option("fix a dispersed input (required for discrete inputs)", EMPTY, metavar="NAME=VALUE")

@@ -1,7 +1,7 @@
 """Frequency responses as functions: interpolated between measured lines, or sampled on a grid that resolves them.
 
-A response is a function of angular frequencies (rad/s, shape (n,)) that returns complex values of L, minus the loop's
-transfer, of shape (n,), or (n, m, m) for m channels.
+A response is a function of angular frequencies (rad/s, shape (n,)). It returns L, the negated transfer function of the
+loop: complex, of shape (n,), or (n, m, m) for m channels.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ _UNIFORM = 200  # further points, evenly spaced: near the Nyquist frequency a lo
 _CLOSEST = 1e-10  # least relative distance of neighbours; a pole on the unit circle is not resolved further
 _SILENT = 1e-9  # gain below which nothing is resolved: a zero on the unit circle
 _HALVINGS = 16  # halvings of the intervals around a crossing
-_NEAR = 0.5  # distance (rad, in log gain, or of -1) within which a closest approach is looked at
+_NEAR = 0.5  # distance (rad, in log gain, or from -1) within which a closest approach is refined
 _ROUNDING = 1e-9  # distance below which closest approaches are noise
 
 
 class CachedResponse:
-    """Response that caches the values of another one by frequency (rad/s)."""
+    """Response that caches the values of another response by frequency (rad/s)."""
 
     def __init__(self, response: Response) -> None:
         self._response = response
@@ -45,7 +45,7 @@ def cache_response(response: Response) -> Response:
 
 
 def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Return one response over another: 1 where both are 0, inf where only the reference is."""
+    """Return one response divided by another: 1 where both are 0, inf where only the divisor is 0."""
     silent = reference == 0.0
     same = np.where(value == 0.0, 1.0, np.inf)
     return np.where(silent, same, value / np.where(silent, 1.0, reference))
@@ -55,13 +55,14 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
     """Return a response through measured lines: ``value`` at ``frequency`` (rad/s, increasing, below pi/T).
 
     Log gain is a cubic spline over log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
-    straight asymptotes of a continuous one, including the zero at z = -1 of a held plant. Unwrapped phase is a cubic
-    spline over log w, in which a delay is as smooth near the Nyquist frequency as elsewhere. For a double integrator
-    with hold, lead and one sample of delay, measured at 10 odd lines per decade, the error is at most 0.02 dB and 0.02
-    deg (20 lines: 0.003 dB, 0.001 deg). With both over log w it is 3 dB near Nyquist, with both over the other 8 deg,
-    with monotone splines (PCHIP) 0.01 dB and 0.14 deg. The phase must turn by less than pi between neighbouring lines,
-    and a resonance needs lines within its width. Raises ValueError for lines that cannot be interpolated, and for
-    frequencies outside them.
+    straight asymptotes of a continuous one, including the zero at z = -1 of a plant with hold. Unwrapped phase is a
+    cubic spline over log w, in which a delay is as smooth near the Nyquist frequency as elsewhere. For a double
+    integrator with hold, lead and one sample of delay, measured at 10 odd lines per decade, the error is at most 0.02
+    dB and 0.02 deg (20 lines: 0.003 dB, 0.001 deg). Alternatives are worse: the error is 3 dB near the Nyquist
+    frequency if both splines are over log w, 8 deg if both are over log tan(w T/2), and 0.01 dB and 0.14 deg with
+    monotone splines (PCHIP). The phase must turn by less than pi between neighbouring lines, and a resonance needs
+    lines within its width. Raises ValueError for lines that cannot be interpolated, and for frequencies outside their
+    range.
     """
     frequency, value = np.asarray(frequency, dtype=float), np.asarray(value, dtype=complex)
     if frequency.ndim != 1 or frequency.shape != value.shape or len(frequency) < 4:
@@ -88,7 +89,7 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
 
 
 def base_grid(low: float, high: float, include: Iterable[float] = ()) -> np.ndarray:
-    """Return frequencies (rad/s) from ``low`` to ``high``: logarithmic, evenly spaced, and those to ``include``."""
+    """Return frequencies (rad/s) from ``low`` to ``high``: logarithmic and even grids, and all of ``include``."""
     if not 0.0 < low < high:
         raise ValueError(f"frequencies from {low:g} to {high:g} rad/s; needs 0 < low < high")
     logarithmic = np.geomspace(low, high, max(2, round(_PER_DECADE * np.log10(high / low)) + 1))
@@ -109,11 +110,10 @@ def dense(
 ) -> FrequencyResponse:
     """Return the response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
 
-    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), except next to a
-    pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L is closest to the unit
-    circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can be missed:
-    ``include`` the frequencies of lightly damped poles. Raises ValueError if ``most`` points do not resolve the
-    response.
+    Between neighbouring points the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), except
+    next to a pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L is closest to
+    the unit circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can be missed
+    unless ``include`` contains its frequency. Raises ValueError if ``most`` points do not resolve the response.
     """
     frequency = base_grid(low, high, include)
     value = _finite(response, frequency)

@@ -1,12 +1,12 @@
 """Sinusoidal-input describing functions N(a) of nonlinear elements of actuators.
 
-An element with the input a sin(wt) has a periodic output; N(a) is the complex ratio of that output's fundamental to the
-input. With the output y(theta) for the input a sin(theta), over one cycle
+An element with the input a sin(wt) has a periodic output; N(a) is the complex ratio of the fundamental of this output
+to the input. With the output y(theta) for the input a sin(theta), over one cycle
 
     N(a) = 1/(pi a) integral of y(theta) (sin(theta) + j cos(theta)) d theta.
 
-None of the elements here depends on frequency. The imaginary part is negative if the output lags (hysteresis) and 0 if
-it depends on the current input alone. All are odd: the mean of the input is assumed to be 0.
+None of these elements depends on frequency. The imaginary part is negative if the output lags (hysteresis), and 0 if
+the output depends on the current input alone. All elements are odd: the mean of the input is assumed to be 0.
 
 Source: Gelb and Vander Velde 1968, Multiple-Input Describing Functions and Nonlinear System Design, section 2.3
 (piecewise-linear elements and their saturation function f) and table B.1.
@@ -30,13 +30,15 @@ INTEGRAL = "unit of the input times s"
 class ElementKind:
     """Kind of nonlinear element.
 
-    ``gain`` returns N (complex, shape (n,)) for amplitudes (shape (n,), positive) and complete parameters. ``required``
-    and ``optional`` are the parameters with the unit of each, ``defaults`` the values of the latter; ``positive`` names
-    those that may not be 0 (none may be negative). ``check`` returns what is wrong with a combination of individually
-    valid parameters, or "". ``kinks`` lists the amplitudes, ascending, at which N is not smooth, up to ``farthest``,
-    beyond which N is practically constant (inf: N tends to 0). ``output`` is the largest output, inf without limit, so
-    that abs(N) <= 4 output/(pi a). ``of_integral``: the amplitude is that of the integral of the input over time.
-    ``note`` states the assumptions.
+    - ``gain``: function that returns N (complex, (n,)) for positive amplitudes (n,) and complete parameters.
+    - ``required``, ``optional``: parameters with their units; ``defaults`` are the values of optional parameters.
+    - ``positive``: parameters that may not be 0; no parameter may be negative.
+    - ``check``: function that returns the error in a combination of individually valid parameters, or "".
+    - ``kinks``: function that returns the amplitudes, ascending, at which N is not smooth, up to ``farthest``.
+    - ``farthest``: function that returns the amplitude above which N is practically constant (inf: N tends to 0).
+    - ``output``: function that returns the largest output, inf without limit, so that abs(N) <= 4 output/(pi a).
+    - ``of_integral``: True if the amplitude is that of the integral of the input over time.
+    - ``note``: assumptions.
     """
 
     gain: Callable[[np.ndarray, Parameters], np.ndarray]
@@ -67,7 +69,7 @@ def _saturation_function(limit: float, amplitude: np.ndarray) -> np.ndarray:
 def _relay(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     level, dead_zone, hysteresis = (parameters[name] for name in ("level", "dead_zone", "hysteresis"))
     on, off = dead_zone + hysteresis, dead_zone - hysteresis
-    # on from arcsin(on/a) to pi - arcsin(off/a), and half a cycle later with the other sign
+    # the relay is on from arcsin(on/a) to pi - arcsin(off/a), and half a cycle later with the opposite sign
     real = 2.0 * level / (math.pi * amplitude) * (_share(on, amplitude) + _share(off, amplitude))
     imaginary = -4.0 * level * hysteresis / (math.pi * amplitude**2)
     return np.where(amplitude >= on, real + 1j * imaginary, 0.0)
@@ -77,7 +79,7 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     step = parameters["step"]
 
     def gain(a: float) -> float:
-        """Return N at one amplitude: a sum of relays, each one step high, that switch half-way between levels."""
+        """Return N at one amplitude: a sum of relays, each one step high, that switch halfway between levels."""
         thresholds = (np.arange(math.floor(a / step + 0.5)) + 0.5) * step
         ratio = np.minimum(thresholds / a, 1.0)
         return 4.0 * step / (math.pi * a) * float(np.sum(np.sqrt((1.0 - ratio) * (1.0 + ratio))))
@@ -105,8 +107,8 @@ def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
 
 def _pulse_width(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     level, dead_zone, gain = (parameters[name] for name in ("level", "dead_zone", "gain"))
-    # up to the limit the mean is gain times the input; inside the dead zone that is taken away again, which is a
-    # saturation at the dead zone less the jump at its edge: a relay of that height
+    # Up to the limit the mean is gain times the input. The dead zone removes a saturation at its width, minus the jump
+    # at its edge, which is a relay of this height.
     linear = _saturation_function(level / gain, amplitude) - _saturation_function(dead_zone, amplitude)
     jump = 4.0 * dead_zone / (math.pi * amplitude) * _share(dead_zone, amplitude)
     return gain * (linear + jump) + 0j
@@ -222,7 +224,8 @@ def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
 def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     """Return N(a), complex, for amplitudes of the input (any shape, positive); 0 if the element has no output.
 
-    The unit is that of the output per unit of the input. Raises ValueError for a wrong kind, parameter or amplitude.
+    Its unit is the unit of the output divided by the unit of the input. Raises ValueError for a wrong kind, parameter
+    or amplitude.
     """
     complete = complete_parameters(kind, parameters)
     values = np.asarray(amplitude, dtype=float)

@@ -19,9 +19,9 @@ class JointDisk(NamedTuple):
     """Least disk margin, the gain and phase that it permits in all channels at once, and the margin over frequency."""
 
     alpha: float
-    gain: float  # the factor up, and 1/factor down
+    gain: float  # factor upwards, 1/factor downwards
     phase: float  # rad
-    frequency: float  # rad/s, of the least
+    frequency: float  # rad/s, at the least margin
     frequencies: np.ndarray
     alphas: np.ndarray
 
@@ -29,10 +29,10 @@ class JointDisk(NamedTuple):
 def disk_margins(value: np.ndarray) -> np.ndarray:
     """Return the disk margin (skew 0) of each L in ``value`` (n, m, m).
 
-    It is the inverse structured singular value of S - I/2, with a separate complex scaling of every channel. The
-    singular value is its upper bound by scaling, exact up to three channels, as in python-control's `disk_margins`,
-    which does not accept frequency data. Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control
-    Systems Magazine 40 (2020).
+    It is the inverse structured singular value of S - I/2 for a separate complex uncertainty in every channel. This
+    value is computed as its upper bound by diagonal scaling, which is exact up to three channels. python-control's
+    `disk_margins` uses the same bound but does not accept frequency data. Source: Seiler, Packard and Gahinet, "An
+    introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
     """
     identity = np.eye(value.shape[-1])
     bounds = upper_bound(np.linalg.inv(identity + value) - 0.5 * identity)

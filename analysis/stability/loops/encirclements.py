@@ -26,10 +26,10 @@ def encirclements(
     """Count counter-clockwise encirclements of -1 by L, or of 0 by det(I + L), over the whole unit circle of z.
 
     P open-loop poles outside the unit circle and N encirclements leave P - N closed-loop poles outside. The contour
-    passes open-loop poles on the circle on the outside, so they are not among P: integrators at z = 1, and ``undamped``
-    ones at frequencies in rad/s (each repeated by its multiplicity). ``poles_at_one`` is the number of poles of det(I +
-    L) at z = 1; by default it follows from the slope of the gain at ``low`` (rad/s), where the loop gain of every
-    integrator must be well above 1. ``high`` should be the Nyquist frequency. ``include`` are the frequencies of
+    passes outside all open-loop poles on the circle, so P does not include them: integrators at z = 1, and poles at the
+    frequencies ``undamped`` (rad/s, each repeated by its multiplicity). ``poles_at_one`` is the number of poles of
+    det(I + L) at z = 1; by default it follows from the slope of the gain at ``low`` (rad/s), where the loop gain of
+    every integrator must be well above 1. ``high`` should be the Nyquist frequency. ``include`` are the frequencies of
     lightly damped poles.
 
     Raises ValueError if the phase between ``low`` and ``high`` is not settled: the closed loop is marginal, ``low`` is
@@ -76,7 +76,7 @@ def _turn(difference: Response, low: float, high: float, include: list[float]) -
 
 
 def _poles_at_one(response: Response, difference: Response, low: float, declared: int | None) -> int:
-    """Return the number of poles of 1 + L at z = 1, checked by the slope of its gain from ``low`` to twice that."""
+    """Return the number of poles of 1 + L at z = 1, checked by the slope of its gain over the octave above ``low``."""
     pair = np.array([low, 2.0 * low])
     slope = _slope(difference(pair))
     number = round(-slope) if declared is None else declared
@@ -87,7 +87,7 @@ def _poles_at_one(response: Response, difference: Response, low: float, declared
         )
     if declared is None and number == 0:
         size = np.asarray(response(pair))
-        # L still rises towards low frequency but is negligible in 1 + L
+        # the gain of L still rises towards low frequency but is negligible in 1 + L
         if _slope(size if size.ndim == 1 else np.linalg.norm(size, axis=(1, 2))) < -1.0 + _NOT_A_SLOPE:
             raise ValueError(f"at {low:g} rad/s the gain of L is below 1 and still rises downwards; start lower")
     return number

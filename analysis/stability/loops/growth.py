@@ -6,14 +6,14 @@ import numpy as np
 
 WINDOWS = 4  # windows of equal length in which a deviation's size is compared
 MINIMUM = 0.05  # least growth of the logarithm from window to window
-STEADY = 0.05  # spread of these over their mean; that of a power of time is 0.3 over the fifth to the eighth window
-HUGE = 1e100  # the size of a deviation that overflows, whether or not it has grown steadily before
+STEADY = 0.05  # spread of this growth over its mean; it is 0.3 for a power of time over the fifth to the eighth window
+HUGE = 1e100  # deviation that counts as an overflow, whether or not it has grown steadily before
 
 
 def steady_growth(deviation: np.ndarray) -> float | None:
     """Return the factor per sample by which a deviation (n,) has grown over its last three quarters.
 
-    None if it has not grown, or not by the same factor from quarter to quarter.
+    None if it has not grown, or if the growth of successive quarters differs.
     """
     width = len(deviation) // WINDOWS
     if width < 1 or not np.all(np.isfinite(deviation)):

@@ -1,12 +1,13 @@
 """Limit cycles by harmonic balance: the amplitudes and frequencies at which 1 + N(a) L(jw) = 0.
 
-L is the linear rest of the loop (minus its transfer without the element), for a sampled loop L(e^{jwT}). The method is
-valid as far as L filters the harmonics of the element's output, and a sampled loop's period is many samples.
+L is the linear part of the loop (the negated transfer function without the element), for a sampled loop L(e^{jwT}). The
+method is valid if L attenuates the harmonics of the element's output, and if the period of a sampled loop's oscillation
+is many samples.
 
-Stability has two conditions. The pair of poles on the axis must move left when the amplitude grows (Loeb 1956; Gelb and
-Vander Velde 1968, chapter 3): with 1 + N(a) L(s) = 0 along a and s, ds/da = -(N'/N)/(L'(s)/L). And no other pole of the
-loop with the gain N(a) may be unstable, which Loeb's local rule does not detect: it is counted from the gains at which
-a pair crosses the axis, assuming that the loop is stable for some gain.
+Stability has two conditions. First, the pair of poles on the axis must move left when the amplitude grows (Loeb 1956;
+Gelb and Vander Velde 1968, chapter 3): with 1 + N(a) L(s) = 0 along a and s, ds/da = -(N'/N)/(L'(s)/L). Second, no
+other pole of the loop with the gain N(a) may be unstable. Loeb's local rule does not detect such poles; they are
+counted from the gains at which a pair crosses the axis, assuming that the loop is stable for some gain.
 """
 
 from __future__ import annotations
@@ -52,14 +53,14 @@ class _Loop:
         return complex(self.gains(np.array([amplitude]))[0])
 
     def critical(self, turn: complex) -> list[tuple[float, complex]]:
-        """Return the frequencies at which turn * L is real and negative, and turn * L there."""
+        """Return the frequencies at which turn * L is real and negative, and the values of turn * L there."""
         imaginary = (turn * self.curve).imag
         points = []
         for i in np.flatnonzero((imaginary[1:] < 0.0) != (imaginary[:-1] < 0.0)):
             lower, upper = self.frequency[i], self.frequency[i + 1]
             frequency = brentq(lambda w: (turn * self.linear(w)).imag, lower, upper, xtol=1e-14 * upper, rtol=1e-14)
             value = turn * self.linear(frequency)
-            # a change of sign through a pole on the axis is none
+            # a change of sign through a pole on the axis is not a crossing
             if value.real < 0.0 and abs(value.imag) < 1e-6 * abs(value):
                 points.append((frequency, value))
         return points
@@ -94,13 +95,13 @@ class _Loop:
     def stable(self, amplitude: float, frequency: float) -> bool:
         gain = self.gain(amplitude)
         if gain == 0.0:
-            return False  # at the very threshold of the element: nothing pushes
+            return False  # exactly at the threshold of the element there is no restoring effect
         h = 1e-6 * amplitude
         growth = (self.gain(amplitude + h) - self.gain(amplitude - h)) / (2.0 * h) / gain
         if not (growth / self.slope(frequency)).imag < 0.0:  # Re ds/da
             return False
-        # How many pairs are unstable as a factor on N L grows from 0: one more at each crossing of the axis where the
-        # phase falls, one less where it rises. The limit cycle's own pair crosses at factor 1.
+        # As a factor on N L grows from 0, the number of unstable pairs rises by one at each crossing of the axis with
+        # falling phase, and falls by one with rising phase. The pair of the limit cycle itself crosses at factor 1.
         crossings = [(1.0 / abs(value), w) for w, value in self.critical(gain) if abs(w / frequency - 1.0) > 1e-6]
         crossings = sorted([*crossings, (1.0, frequency)])
         unstable = np.cumsum([0] + [1 if self.slope(w).imag < 0.0 else -1 for _, w in crossings])
@@ -109,7 +110,7 @@ class _Loop:
 
 
 def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
-    """Solve for real N: frequencies from the phase of L alone, then amplitudes from the size of N."""
+    """Solve for real N: frequencies from the phase of L alone, then amplitudes from the magnitude of N."""
     balances = []
     for frequency, value in loop.critical(1.0 + 0j):
         target = 1.0 / abs(value)
@@ -121,7 +122,7 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
         if not len(grid):
             continue
         gains = loop.gains(grid).real
-        # Between a kink and the next N rises and falls: the top is found first, so that no pair near it is missed.
+        # Between two kinks N rises and falls; its maximum is found first, so that no pair of roots near it is missed.
         rising = np.diff(gains) > 0.0
         tops = [
             float(
@@ -177,7 +178,7 @@ def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
             mismatch, start, bounds=(lower, upper), jac="3-point", xtol=1e-14, ftol=1e-14, gtol=1e-14
         )
         if np.max(abs(solution.fun)) > 1e-7:
-            continue  # the chords of a curve that jumps there crossed, not the curve
+            continue  # the chord of a jump crossed, not the curve
         amplitude, frequency = (float(value) for value in np.exp(solution.x))
         if not any(
             math.isclose(amplitude, a, rel_tol=1e-6) and math.isclose(frequency, f, rel_tol=1e-6) for a, f in balances
@@ -192,9 +193,9 @@ def predict(
     """Return all solutions of 1 + N(a) L = 0 with low < w < high (rad/s), by amplitude; [] if there are none.
 
     ``response`` returns L for angular frequencies, ``element`` is a kind in ``ELEMENTS``. The grid has ``points``
-    logarithmically spaced frequencies: two crossings between neighbours are missed. ``high`` itself is excluded, since
-    at the Nyquist frequency a sample has only one phase of the sine and N has no meaning. Raises ValueError for wrong
-    parameters or frequencies.
+    logarithmically spaced frequencies; if two crossings are between neighbouring frequencies, both are missed. ``high``
+    itself is excluded, since at the Nyquist frequency a sample has only one phase of the sine and N has no meaning.
+    Raises ValueError for wrong parameters or frequencies.
     """
     complete = complete_parameters(element, parameters)
     if not (0.0 < low < high and math.isfinite(high)):

@@ -1,8 +1,8 @@
-"""Comparable values of the margins of one loop: unstable is worse than any number, unlimited is better.
+"""Comparable sizes of the margins of one loop: unstable is worse than any number, unlimited is better.
 
-Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, s, 1. The size of every
-margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that can be
-compared, sorted, and used in minima and order statistics.
+Sizes are in the units of limits and pages: gain in dB up or down, phase in deg of lag or lead, delay in s. Every margin
+of an unstable loop has the size `UNSTABLE`, and a margin without a crossing has the size `UNLIMITED`. Both are floats
+that can be compared, sorted, and used in minima and order statistics.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ class MarginQuantity(StrEnum):
 
     @property
     def unit(self) -> str:
-        """Unit of its sizes: dB, deg, s or 1."""
+        """Unit of the quantity's sizes: dB, deg, s or 1."""
         return {"gain": "dB", "phase": "deg", "delay": "s"}.get(self.split()[-2] if " " in self else "", "1")
 
 
-# Of every loop's line.
+# Quantities in the line of each loop.
 MARGINS = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS, MarginQuantity.DISK)
 
 
@@ -89,5 +89,5 @@ class LoopMargins:
 
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:
-    """Return the least size that a share ``level`` of all does not exceed (0: the least), with `UNSTABLE` lowest."""
+    """Return the size at the quantile ``level`` (0: the least), without interpolation; `UNSTABLE` is the lowest."""
     return sorted(sizes)[quantile_rank(level, len(sizes))]

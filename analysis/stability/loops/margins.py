@@ -15,8 +15,8 @@ from .curves import Response, cache_response, dense
 from .encirclements import encirclements
 from .readings import Classical, Crossing, Robust
 
-# Beyond these no crossing is believed: 180 dB of gain, or a phase within rounding of the negative real axis, as that
-# of a double integrator at low frequency.
+# Crossings beyond these are ignored: 180 dB of gain, or a phase within rounding of the negative real axis, such as
+# the phase of a double integrator at low frequency.
 _ROUNDING = 1e-9
 _FINEST = 4.0 * np.finfo(float).eps
 
@@ -34,14 +34,15 @@ def classical(
 ) -> Classical:
     """Return all gain, phase and delay margins between ``low`` and ``high`` (rad/s) of a sampled loop.
 
-    ``sample_period`` is in s. If L is real without crossing the axis it has a gain margin too: at the Nyquist frequency
-    if ``high`` is that, and at frequency 0 (returned as such) if L without integrators levels off below ``low``.
-    Encirclements are counted if the number of open-loop poles outside the unit circle is known; ``poles_at_one`` and
-    ``undamped`` (rad/s) are those of `encirclements`, ``include`` that of `dense`.
+    ``sample_period`` is in s. L has a gain margin also at an end where it is real without crossing the axis: at the
+    Nyquist frequency, if ``high`` is this frequency, and at frequency 0 (returned as such), if L has no integrator and
+    is level below ``low``. Encirclements are counted if the number of open-loop poles outside the unit circle is known.
+    ``poles_at_one`` and ``undamped`` (rad/s) are as in `encirclements`, ``include`` as in `dense`.
 
     Crossings are bracketed on the grid and solved for on the response itself (Brent). Between the ends python-control's
-    `stability_margins` of an FRD on the same grid agrees within 1e-6 dB and deg, as the tests verify, but version
-    0.10.2 has no margins at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
+    `stability_margins` of an FRD on the same grid agrees within 1e-6 dB and deg, as the tests verify. Version 0.10.2
+    returns no margins at either end, however, and its polynomial method is wrong for resonant loops (1.14 instead of
+    1.05).
     """
     include = [*include]
     undamped = [*undamped]
@@ -129,13 +130,16 @@ def disk_of_phase(angle: float) -> float:
 
 
 def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> tuple[float, float]:
-    """Return the highest value and its frequency (rad/s), refined between points of a grid that resolves all peaks."""
+    """Return the highest value and its frequency (rad/s), refined between points of a grid that resolves all peaks.
+
+    ``size`` returns the values for angular frequencies (rad/s).
+    """
     values = size(frequency)
     best = int(np.argmax(values))
     candidates = [(float(values[best]), float(frequency[best]))]
     neighbours = np.concatenate([[-np.inf], values, [-np.inf]])
     before, after = neighbours[:-2], neighbours[2:]
-    # of a level stretch only its ends: within it, as in a loop without gain, there is nothing to refine
+    # only the ends of a level stretch: inside it, as in a loop without gain, there is nothing to refine
     peaks = (values >= before) & (values >= after) & ((values > before) | (values > after))
     peaks &= values > 0.98 * values[best]
     for index in np.flatnonzero(peaks).tolist():

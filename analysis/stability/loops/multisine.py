@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_GROUP = 4  # one random line of this many successive candidates is not excited
-_DRAWS = 50  # number of random phases, of which those with the lowest crest factor are taken
-_SWAPS = 100  # between time, where the peaks are clipped to a share, and frequency, where the amplitudes are restored
+_GROUP = 4  # successive candidates of which one, chosen at random, is not excited
+_DRAWS = 50  # number of random sets of phases; the set with the lowest crest factor is used
+_SWAPS = 100  # iterations: peaks are clipped in time, then amplitudes are restored in frequency
 _CLIPPED = 0.8
 
 
@@ -41,8 +41,8 @@ def multisine(
 ) -> Multisine:
     """Return a multisine with ``samples`` per period and lines of ``amplitude``, excited up to ``highest_line``.
 
-    ``per_decade`` spaces the lines quasi-logarithmically: about as many per decade, or all odd ones if there are fewer.
-    The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
+    ``per_decade`` spaces the lines quasi-logarithmically: about this number per decade, or all odd lines where there
+    are fewer. The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
     """
     if not 1 <= highest_line < samples / 2:
         raise ValueError(f"the highest line, {highest_line}, must lie between 1 and half of {samples} samples")
@@ -75,7 +75,7 @@ def _unit_signal(samples: int, lines: np.ndarray, phases: np.ndarray) -> np.ndar
 
 
 def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> np.ndarray:
-    """Return phases (rad) with a low peak: the best random ones, improved by swapping between time and frequency.
+    """Return phases (rad) with a low peak: the best of several random sets, improved by time-frequency swapping.
 
     Van der Ouderaa, Schoukens and Renneboog, "Peak factor minimization using a time-frequency domain swapping
     algorithm", IEEE Trans. Instrumentation and Measurement 37 (1988).
@@ -110,9 +110,9 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
 
 
 def fraction_unexcited(record: np.ndarray, signal: Multisine) -> float:
-    """Return the largest response on an unexcited line, relative to the larger one on the excited lines next to it.
+    """Return the largest response on an unexcited line, relative to the larger one on neighbouring excited lines.
 
-    ``record`` (n,) is a response over whole periods in the steady state. The result is 0 for a linear one without
+    ``record`` (n,) is a response over whole periods in the steady state. The result is 0 for a linear response without
     noise.
     """
     samples = len(signal.signal)

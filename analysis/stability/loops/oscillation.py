@@ -1,14 +1,14 @@
 """Detection of a sustained oscillation in a recorded signal, with its amplitude and period.
 
-The end of the record is cut into whole cycles at upward crossings of its mean; a crossing counts only if the signal was
-below the mean by a quarter of the half peak to peak since the last one, so that ripple adds none. A sine with the
-length of the cycle is fitted to each by least squares. The oscillation is sustained if
+The end of the record is cut into whole cycles at upward crossings of its mean. A crossing counts only if, since the
+previous one, the signal was below the mean by a quarter of half its peak-to-peak value; otherwise it is ripple. A sine
+with the length of the cycle is fitted to each cycle by least squares. The oscillation is sustained if
 
 - there are at least ``cycles`` whole cycles (a settled or drifting signal has none);
 - it exceeds the rounding of the record (1e-9 of its largest value);
 - the mean amplitudes of the earlier and the later half of the cycles agree within ``agreement``, as do the mean
   periods (else it decays, grows or has not settled);
-- the two halves' means differ by less than a fifth of the amplitude (else it drifts);
+- the means of the two halves differ by less than a fifth of the amplitude (else it drifts);
 - lengths and amplitudes of the cycles scatter by less than a fifth (standard deviation), and the sines explain
   more than half of the mean square about the mean (else it is noise, or has no single frequency).
 """
@@ -79,7 +79,7 @@ def find_oscillation(
         raise ValueError(f"share = {share!r} is not in (0, 1], or cycles = {cycles!r} is below 2")
 
     tail = values[len(values) - max(16, round(share * len(values))) :]
-    # The mean over whole cycles needs the cycles, and they the mean: from mid-height, three rounds.
+    # Mean and cycles depend on each other: three iterations, starting from mid-height.
     mean = 0.5 * float(tail.max() + tail.min())
     crossings = np.zeros(0)
     for _ in range(3):
@@ -100,7 +100,7 @@ def find_oscillation(
         return None
     if abs(np.mean(lengths[:middle]) - np.mean(lengths[middle:])) > agreement * period:
         return None
-    # Cycle by cycle, since the phase of a sampled loop wanders: it hops between cycles a sample longer or shorter.
+    # Cycle by cycle, since the phase of a sampled loop drifts: cycles may be a sample longer or shorter.
     edges = np.ceil(crossings).astype(int)
     pieces = [tail[low:high] for low, high in pairwise(edges)]
     amplitudes, means, explained = np.transpose([_sine(p, n) for p, n in zip(pieces, lengths, strict=True)])

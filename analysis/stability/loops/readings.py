@@ -1,6 +1,6 @@
-"""Margins and curves of a loop's frequency response: gains as factors, angles in rad, times in s, frequency rad/s.
+"""Margins and curves of a loop's frequency response: gains as factors, angles in rad, times in s, frequency in rad/s.
 
-Margins are shown and limited in dB and deg, computed by the functions at the end.
+Limits and pages state margins in dB and deg, computed by the functions at the end.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import numpy as np
 class Crossing:
     """Gain or phase margin where the loop's frequency response crosses the critical ray or the unit circle.
 
-    ``value`` is the factor on the gain that makes the loop marginal (above 1: a margin upwards, below 1: downwards), or
-    the phase lag (rad, positive; negative: a lead) that does; ``frequency`` is in rad/s.
+    ``value`` makes the loop marginal: it is a factor on the gain (above 1: a margin upwards, below 1: downwards), or a
+    phase lag (rad; negative: a lead). ``frequency`` is in rad/s.
     """
 
     value: float
@@ -54,14 +54,14 @@ class Robust:
     complementary_peak: float
     complementary_frequency: float
     disk_margin: float
-    disk_gain: float  # the factor up, and 1/factor down, that the disk margin guarantees
+    disk_gain: float  # factor that the disk margin guarantees upwards, 1/factor downwards
     disk_phase: float  # rad
     disk_frequency: float
 
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """Frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
+    """Frequency response: angular frequencies (rad/s), and L, the negated transfer function of the loop."""
 
     frequency: np.ndarray
     value: np.ndarray
@@ -72,7 +72,7 @@ def decibels(factor: complex) -> float: ...
 @overload
 def decibels(factor: np.ndarray) -> np.ndarray: ...
 def decibels(factor: complex | np.ndarray) -> float | np.ndarray:
-    """Return the size of a real or complex gain in dB; minus infinity for 0."""
+    """Return the magnitude of a real or complex gain in dB; minus infinity for 0."""
     with np.errstate(divide="ignore"):
         level = 20.0 * np.log10(np.abs(factor))
     return level if isinstance(factor, np.ndarray) else float(level)
@@ -89,5 +89,5 @@ def factor_of(decibel: float) -> float:
 
 
 def degree_size(angle: float) -> float:
-    """Return the size of an angle (rad), lag or lead, in deg."""
+    """Return the magnitude of an angle (rad), lag or lead, in deg."""
     return float(np.degrees(abs(angle)))

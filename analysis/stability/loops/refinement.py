@@ -10,11 +10,11 @@ import numpy as np
 from .readings import Classical, Crossing, FrequencyResponse, Robust, decibels
 
 ROUNDS = 4
-GAIN_STAYS = 0.01  # dB
-PHASE_STAYS = 0.02  # deg
-CROSSINGS = 12  # crossings of one kind, the nearest, that are measured
-SAME = 3e-4  # relative distance of frequencies that are one
-ENDS = 1e-3  # likewise, from the end of the lines
+GAIN_STAYS = 0.01  # dB, change of a settled gain margin
+PHASE_STAYS = 0.02  # deg, change of a settled phase margin
+CROSSINGS = 12  # number of nearest crossings of each kind that are measured
+SAME = 3e-4  # relative distance up to which frequencies count as equal
+ENDS = 1e-3  # relative distance of a frequency from the ends of the lines
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,8 @@ def refine(
 ) -> Refined:
     """Return the curve with further lines where its margins are determined: at crossings and nearest to -1.
 
-    ``measure`` takes a frequency (rad/s) and returns that of a line next to it with its value of L. Raises as it does.
+    ``measure`` takes a frequency (rad/s), and returns the frequency of a nearby line and L on this line; its errors are
+    raised.
     """
     classical, robust = margins_of(curve)
     gain = phase = np.inf

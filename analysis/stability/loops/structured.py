@@ -1,10 +1,11 @@
 """Structured singular value of complex matrices with one complex uncertainty per channel: upper bound by scaling.
 
-The bound is the least largest singular value of D M D^-1 over positive diagonal D; up to three channels it is the
-structured singular value itself (Packard and Doyle, "The complex structured singular value", Automatica 29 (1993),
+The bound is the minimum of the largest singular value of D M D^-1 over positive diagonal D; up to three channels it is
+the structured singular value itself (Packard and Doyle, "The complex structured singular value", Automatica 29 (1993),
 sections 5 and 9). The logarithm of any Schatten norm of D M D^-1 is convex in log D (three lines theorem), smooth for
-finite order of the norm, and for m channels exceeds that of the largest singular value by at most log(m)/order. So
-Newton's method minimises norms of growing order, each from the previous minimum, for all matrices at once.
+finite order of the norm, and for m channels exceeds the logarithm of the largest singular value by at most
+log(m)/order. So Newton's method minimises norms of growing order, each from the previous minimum, for all matrices at
+once.
 """
 
 from __future__ import annotations
@@ -12,25 +13,25 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-_ACCURACY = 1e-10  # relative, of the last norm; the bound is within a few of it, as the tests hold
-_GROWTH = 10.0  # factor on the order from norm to norm
-_MOST = 300  # Newton steps; 300 matrices together needed 91 at most, of six channels, real, with kinks
+_ACCURACY = 1e-10  # relative, of the last norm; tests verify that the bound is within a few times this
+_GROWTH = 10.0  # factor on the order from one norm to the next
+_MOST = 300  # Newton steps; the largest number needed by 300 real matrices of six channels with kinks was 91
 _SHORTEST = 1e-12  # fraction of a Newton step
 _FARTHEST = 3.0  # longest step of log D
-_FLAT = 1e-10  # curvature that is added: a channel that only answers to others is scaled without end, to no effect
+_FLAT = 1e-10  # added curvature; without it the scale of a channel that affects no other would grow without limit
 _ROUNDING = 1e-15
 _SWEEPS = 4
 
 
 def upper_bound(matrix: np.ndarray) -> np.ndarray:
-    """Return the least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within about 1e-9.
+    """Return the bound for each M of ``matrix`` (n, m, m), within about 1e-9.
 
-    Raises ValueError if it is not found.
+    It is the minimum of the largest singular value of D M D^-1. Raises ValueError if it is not found.
     """
     bounds = np.zeros(len(matrix))
     for pattern in np.unique(matrix != 0.0, axis=0):
         alike = np.flatnonzero(np.all((matrix != 0.0) == pattern, axis=(1, 2)))
-        # scaling takes away what goes one way only, and leaves groups of channels that answer each other
+        # scaling removes one-way coupling and leaves groups of channels that affect each other
         groups, group = connected_components(pattern, directed=True, connection="strong")
         for number in range(groups):
             chosen = np.flatnonzero(group == number)
@@ -59,7 +60,7 @@ def _two(matrix: np.ndarray) -> np.ndarray:
 def _several(matrix: np.ndarray) -> np.ndarray:
     bounds = np.full(len(matrix), np.nan)
     logarithm = _balance(np.abs(matrix) ** 2)
-    half = np.full(len(matrix), 2.0)  # half the norm's order; balancing has minimised that of order 2
+    half = np.full(len(matrix), 2.0)  # half the norm's order; balancing has minimised the norm of order 2
     active = np.arange(len(matrix))
     for _ in range(_MOST):
         now, x, q = matrix[active], logarithm[active], half[active]
@@ -133,9 +134,10 @@ def _expansion(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return the log norm of order 2 ``half``, its gradient and Hessian in log D, and the singular values.
 
-    With B = D M D^-1 = U S V* and A = B* B the norm's log is log(tr A^q)/(2 q); E is one on the diagonal at a channel:
-    dB = E B - B E, dA = 2 B* E B - E A - A E. Second derivatives of traces by divided differences of q r^(q-1) (Lewis
-    and Sendov, "Twice differentiable spectral functions", SIAM J. Matrix Anal. Appl. 23 (2001)).
+    With B = D M D^-1 = U S V* and A = B* B the norm's log is log(tr A^q)/(2 q). For the channel whose E is 1 on the
+    diagonal, and 0 elsewhere, dB = E B - B E and dA = 2 B* E B - E A - A E. Second derivatives of traces follow from
+    divided differences of q r^(q-1) (Lewis and Sendov, "Twice differentiable spectral functions", SIAM J. Matrix Anal.
+    Appl. 23 (2001)).
     """
     left, sizes, right = np.linalg.svd(_scale(matrix, logarithm))
     value = _norm(sizes, half)

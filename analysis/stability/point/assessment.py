@@ -15,14 +15,14 @@ from ..request.declaration import MarginLimits
 from ..results.requirement import MarginRequirement, Scope, describe_instability
 
 LOWEST = 1e-6  # fraction of the Nyquist frequency, below which a linear model's integrators are not resolved
-BELOW = 0.02  # fraction of the lowest gain crossover, from which on a loop is studied
+BELOW = 0.02  # fraction of the lowest gain crossover at which the studied range of a loop begins
 COARSE = 600
-LOWER = 0.2  # step down where encirclements cannot be counted from there
+LOWER = 0.2  # factor on the lowest frequency if encirclements cannot be counted from there
 
 
 @dataclass(frozen=True)
 class Assessment:
-    """Margins with the curve that they were read from; ``notes`` report what could not be counted, and why."""
+    """Margins, and the curve from which they were read; ``notes`` explain why encirclements were not counted."""
 
     curve: FrequencyResponse
     classical: Classical
@@ -53,8 +53,9 @@ def assess(
 ) -> Assessment:
     """Return all margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
 
-    ``slower`` returns the number of unstable open-loop poles slower than a frequency. Encirclements counted from there
-    on would take them as integrators, so the count begins below them if that can be resolved.
+    ``slower`` returns the number of unstable open-loop poles slower than a frequency. A count of encirclements that
+    begins at this frequency would mistake these poles for integrators, so the count begins below them if that can be
+    resolved.
     """
     response = cache_response(response)
     notes: dict[str, str] = {}
@@ -64,7 +65,7 @@ def assess(
             crossings = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
             if lowest or unstable_open is None or slower(low) == 0:
                 break
-        except ValueError as error:  # mostly slow poles that are not yet distinguished from integrators
+        except ValueError as error:  # mostly slow poles that are not distinguishable from integrators at this frequency
             if unstable_open is None:
                 raise
             if lowest:
@@ -83,7 +84,7 @@ def assess(
 def requirements(
     margins: LoopMargins, limits: MarginLimits, outside: Sequence[str] = ()
 ) -> tuple[MarginRequirement, ...]:
-    """Return the project's limits applied to one loop; ``outside`` names growing memory outside of it."""
+    """Return the project's limits applied to one loop; ``outside`` names memory that grows outside the loop."""
     if margins.stable is None:
         note = "poles are not known without a linearisation"
         stability = MarginRequirement(Scope.NOMINAL, MarginQuantity.STABILITY, None, 1.0, None, note)

@@ -21,10 +21,10 @@ from ..request.declaration import PointDeclaration
 from ..results.requirement import MarginVerdict
 
 LONGEST = 50_000  # communication points of a hyperperiod
-LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
-LEAST = 1e-6  # of the largest number with the same unit: what is smaller is rounding, or happens to be near 0
-NEVER = 1e-3  # likewise, of a vector that has been 0 all the way
-NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, and tells no scale
+LOOKS = 20  # number of communication points before the operating point at which magnitudes are evaluated
+LEAST = 1e-6  # fraction of the largest number with the same unit; smaller numbers are rounding, or happen to be near 0
+NEVER = 1e-3  # the same fraction for a vector that was always 0
+NOTHING = 1e-9  # SI; a smaller number with a unit has not been used yet and determines no scale
 
 
 class StudyError(RuntimeError):
@@ -32,7 +32,7 @@ class StudyError(RuntimeError):
 
 
 class OverflowedError(StudyError):
-    """Overflow of a simulation; ``signals`` are those up to the overflow."""
+    """Overflow of a simulation; ``signals`` contains the signals up to the overflow."""
 
     def __init__(self, message: str, signals: dict[str, np.ndarray]) -> None:
         super().__init__(message)
@@ -50,10 +50,10 @@ class LoopError(StudyError):
 class Bench:
     """Simulation of one operating point, with all connectors that are excited or read. Must be closed.
 
-    ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and the FMUs'
-    sample periods. ``origin`` is the communication point before the operating point, which is a multiple of it.
-    ``varied`` names parameters that `set` may change, ``recorded`` further variables to return with those of the
-    channels.
+    ``period`` is the hyperperiod in communication points: the least common multiple of the sample periods of the
+    channels and the FMUs. The operating point is at a multiple of it, and ``origin`` is the communication point before
+    the operating point. ``varied`` names parameters that `set` may change, ``recorded`` further variables to return
+    with the signals of the channels.
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class Bench:
         return self.period * self.prepared.step
 
     def fly(self, first: int, last: int, excitation: np.ndarray | None = None) -> dict[str, np.ndarray]:
-        """Return signals at points ``first`` + 1 to ``last`` (from 0 on with ``first`` -1). Raises StudyError.
+        """Return signals at points ``first`` + 1 to ``last`` (from point 0 if ``first`` is -1). Raises StudyError.
 
         ``excitation`` [r, connectors] begins at the operating point or, after it, at ``first`` + 1.
         """
@@ -161,10 +161,11 @@ class Bench:
 class OperatingPoint:
     """Bench simulated to its operating point, with its memory saved there.
 
-    ``scale`` [cells] is the unit in which changes of each cell are measured: the largest absolute value on the way of
-    any cell in its vector, at least LEAST of the largest with its unit, or NEVER of that if the vector has been 0 so
-    far; 1 if nothing determines a scale. Vectors without a unit, such as covariances, mix quantities: each of their
-    cells is measured by its own value. ``sizes`` are the largest absolute values of the signals at the cuts, by loop.
+    ``scale`` [cells] is the unit in which changes of each cell are measured. For a cell with a unit it is the largest
+    absolute value that any cell of the same vector had on the way, at least the fraction LEAST of the largest value
+    with this unit, or the fraction NEVER of the latter if the vector was always 0. Vectors without a unit, such as
+    covariances, mix quantities: the scale of each of their cells is its present value. Without any scale it is 1.
+    ``sizes`` are the largest absolute values of the signals at the cuts, by loop.
     """
 
     def __init__(self, bench: Bench) -> None:

@@ -1,8 +1,8 @@
 """Frequency-response test: a multisine is added at the cut of the closed loop, and the response is measured.
 
-It only needs inputs and outputs, not memory, and so works with any FMUs. Every simulation begins at the start; the same
-simulation without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which
-are the same in both, cancel. L = -V/U on whole periods after the transient.
+The test uses inputs and outputs only, not memory, and so works with any FMUs. Every simulation begins at the start; the
+same simulation without the multisine is subtracted, which cancels the motion along the trajectory and the sensors'
+noise. L = -V/U on whole periods after the transient.
 
 Source: Pintelon and Schoukens 2012, System Identification, chapters 2 and 5 (multisines, and unexcited lines that show
 nonlinearity).
@@ -26,15 +26,15 @@ from ..results.responses import Measured
 from .bench import Bench, LoopError, OverflowedError
 
 SEED = 1  # seed of the multisine's phases
-PERIODS = 1  # measured at least, after those that the transient takes
+PERIODS = 1  # least number of measured periods, after the transient
 MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is a whole number of hyperperiods
 FIRST = 2  # periods in which a transient may look like growth
 PATIENCE = 8  # periods of transient at most
-SETTLED = 1e-5  # relative difference of two windows one period apart
-STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
+SETTLED = 1e-5  # relative difference of two windows one period apart, below which the response is settled
+STILL_MOVING = 1e-2  # difference above which a loop counts as unstable, or as not periodic
 PER_DECADE = 20
 FEWEST, MOST = 128, 65536  # samples in a period
-DEFAULT_SHARE = 0.01  # amplitude where none is declared, of the signal's own size
+DEFAULT_SHARE = 0.01  # amplitude as a fraction of the signal's magnitude, if none is declared
 FLIGHT_POINTS = 2_000_000  # largest number of communication points of one simulation
 
 
@@ -63,9 +63,9 @@ class Injector:
         samples = max(FEWEST, round(2.0 * np.pi / (self.lowest * self.seconds)))
         if samples > MOST:
             raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples per period, more than {MOST}")
-        # A periodic loop also answers at frequencies apart by those of the hyperperiod. Over a whole number of
-        # hyperperiods, of which a period of the signal is none, these fall between the lines. Nor is a line at
-        # a multiple of the hyperperiod's frequency, where what stays constant answers in the linearisation.
+        # A periodic loop also responds at frequencies shifted by multiples of the hyperperiod's frequency. These are
+        # between the lines, because the window is a whole number of hyperperiods but the period of the signal is not.
+        # No line is at such a multiple itself, where constant terms respond in the linearisation.
         rounds = self.bench.period // self.channel.period
         while math.gcd(samples, rounds) > 1:
             samples += 1
@@ -96,7 +96,7 @@ class Injector:
         )
 
     def peak(self) -> float:
-        """Return the peak of the multisine: the declared amplitude, or a fraction of the signal's size."""
+        """Return the peak of the multisine: the declared amplitude, or a fraction of the signal's magnitude."""
         if self.channel.amplitude is not None:
             return self.channel.amplitude
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))

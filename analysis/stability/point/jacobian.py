@@ -20,7 +20,7 @@ class Jacobian:
 
     Memory is changed at the communication point before the operating point; an excitation lasts one sample of its
     channel. A column consists of the memory after the period, in units of its scale, followed by u and v of all
-    channels, each at its samples. ``start`` and ``end`` are the undisturbed memory before and after.
+    channels, each at its samples. ``start`` and ``end`` are the undisturbed memory before and after the period.
     """
 
     def __init__(self, operating_point: OperatingPoint) -> None:
@@ -52,7 +52,7 @@ class Jacobian:
         return np.concatenate([self.memory.read() / self.scale, *inside, *back])
 
     def cell_column(self, cell: int, step: float) -> np.ndarray:
-        """Return the derivative with respect to one cell; it and ``step`` are in units of the cell's scale."""
+        """Return the derivative with respect to one cell; derivative and ``step`` are in units of the cell's scale."""
         high = self.start[cell] + step * self.scale[cell]
         low = self.start[cell] - step * self.scale[cell]
         self.memory.restore(self.snapshot, self.memory.cells[cell], high)
@@ -63,7 +63,7 @@ class Jacobian:
     def input_column(self, port: SampledChannel, sample: int, step: float) -> np.ndarray:
         """Return the derivative with respect to an excitation at one sample of a channel.
 
-        ``step`` is in units of the signal's size.
+        ``step`` is in units of the signal's magnitude.
         """
         channel = port.channel
         size = step * (channel.amplitude or self.sizes[channel.loop])
@@ -91,7 +91,7 @@ class Jacobian:
 
 
 def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEPS) -> tuple[np.ndarray, np.ndarray]:
-    """Return each element of a column at the step where it changes least to the next smaller step, and at that one.
+    """Return each element of a column at the two neighbouring steps between which it changes least.
 
     Large steps are nonlinear, small ones are dominated by rounding; in between is a plateau. A pair of zeros only
     counts if there is no plateau elsewhere, since rounding can swallow a change completely. With a single step both
@@ -104,7 +104,7 @@ def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEP
         except StudyError:
             if step == steps[-1] and not values:
                 raise
-            continue  # too large, such as a negative variance
+            continue  # the step is too large, for instance because a variance becomes negative
         if len(values) == LEVELS:
             break
     if len(values) == 1:

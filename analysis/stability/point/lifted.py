@@ -23,11 +23,14 @@ from ..request.channels import Channel
 
 RANK = 1e-6  # fraction of the largest singular value, below which a direction vanishes within a period
 SHARE = 1e-7
-LOWEST, LOOKS = 1e-4, 24  # frequencies, over the Nyquist frequency, at which shares are looked at
-QUIET = 1e-6  # response below which nothing has a share
-UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
+LOWEST, LOOKS = (
+    1e-4,
+    24,
+)  # number of frequencies for shares, and the lowest over the Nyquist frequency
+QUIET = 1e-6  # response below which no cell has a share
+UNIT_CIRCLE = 1e-5  # distance from the unit circle up to which a pole counts as on it
 _BLOCK = 8  # rows of a triangle that are solved one by one before the others are updated at once
-_TOGETHER = 64  # frequencies: arrays stay in the cache and products below the size for which BLAS starts threads
+_TOGETHER = 64  # frequencies at a time: arrays fit into the cache, and products are too small for threads of BLAS
 
 
 @dataclass(frozen=True)
@@ -116,9 +119,9 @@ class LiftedModel:
     def lasting(self) -> LiftedModel:
         """The same model without the directions that vanish within some periods (poles at z = 0).
 
-        Orthogonal steps: the range of a, then the range of a within it, until no direction is lost. A direction that
-        vanishes still transfers d to u and v within the period and over the periods it takes, so this is for poles
-        only.
+        Memory is restricted to the range of a, then to the range of a within it, and so on, in orthogonal bases, until
+        no direction is lost. A direction that vanishes still transfers d to u and v within the period and over the
+        periods that it takes to vanish, so the result is for poles only.
         """
         if not self.a.size:
             return self
@@ -188,7 +191,7 @@ class LiftedModel:
         return x
 
     def response(self, ports: tuple[SampledChannel, ...], frequency: np.ndarray) -> np.ndarray:
-        """Return L, minus the transfer from the input to the return signal, (n, m, m), with other loops closed."""
+        """Return L, the negated transfer function from input to return signal, (n, m, m), with other loops closed."""
         u, v = self.disturbance_response(ports, np.asarray(frequency, dtype=float))
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 

@@ -34,9 +34,9 @@ def element_report(
     high: float,
     prepare: Callable[[Layer], PreparedSystem],
 ) -> Nonlinearity:
-    """Report the harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
+    """Report the harmonic balance of an element at a cut with the linear part of the loop, L = ``response``.
 
-    ``prepare`` returns the system with the element's own layer, in which its limit cycle is simulated: amplitude and
+    ``prepare`` returns the system with the layer of the element, in which its limit cycle is simulated: amplitude and
     period are those of the return signal, integrated if N is a function of the integral. Raises InputError for invalid
     parameters of the element.
     """
@@ -66,9 +66,9 @@ def element_report(
 
 
 def _lowest(response: Response, low: float, high: float) -> float:
-    """Return the lowest frequency (rad/s).
+    """Return the lowest frequency (rad/s) at which limit cycles are sought.
 
-    At lower ones L is so large that the element hardly moves, and integrators are noise.
+    Below it L is so large that the element hardly moves, and integrators are dominated by noise.
     """
     frequency = np.geomspace(low, high, POINTS)
     below = np.flatnonzero(abs(response(frequency)) < LARGEST_GAIN)
@@ -76,9 +76,10 @@ def _lowest(response: Response, low: float, high: float) -> float:
 
 
 def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
-    """Return amplitude and period (s) of the return signal at the end of a simulation, None if there is no oscillation.
+    """Return amplitude and period (s) of the return signal at the end of a simulation, None without an oscillation.
 
-    ``integrated``: of its integral over time, without the ramp that a constant disturbance causes.
+    If ``integrated``, the signal's integral over time is evaluated, without the ramp that a constant disturbance
+    causes.
     """
     with open_simulation(prepared, requested=channel.recorded) as simulation:
         flight = simulation.fly()

@@ -14,7 +14,7 @@ from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
 from .modes import CoupledMemory, find_coupled_cells, multipliers
 
-# Of derivatives by one step of 1e-5: an integrator's multiplier over 5 s differs from 1 by 2.4e-5 (landing_mission).
+# Error of derivatives from one step of 1e-5: an integrator's multiplier over 5 s is wrong by 2.4e-5 (landing_mission).
 ONE_STEP_CHANGE = 1e-5
 
 
@@ -22,11 +22,11 @@ ONE_STEP_CHANGE = 1e-5
 class Linearisation:
     """Linear model with the data needed to judge it.
 
-    ``neighbour`` is the model from the next smaller steps of the differences: the steps are suitable as far as both
-    agree. ``drift`` lists name, value, change over the period and unit of the memory in the model, the largest relative
-    change first. ``blocks`` have the multipliers of the whole system. ``cells`` are the numbers of the cells relevant
-    for either, of ``states`` in all. ``unknown`` is the relative change with the steps that is assumed if there was
-    only one step.
+    - ``neighbour``: model from the next smaller steps of the differences; the steps are suitable as far as both agree.
+    - ``drift``: name, value, change over the period and unit of the model's memory, the largest relative change first.
+    - ``blocks``: coupled memory of the whole system, with its multipliers.
+    - ``cells``: numbers of the memory cells that are relevant for either model; ``states`` is the number of all cells.
+    - ``unknown``: relative change with the steps that is assumed if there was only one step.
     """
 
     model: LiftedModel
@@ -80,7 +80,7 @@ def linearise(
 def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np.ndarray) -> LiftedModel:
     count, inputs = len(jacobian.memory.cells), driven.shape[1]
     u, v = slice(count, count + inputs), slice(count + inputs, None)
-    # Balanced: what the memory happens to hold tells little about how much of it a signal moves.
+    # Balanced, since the present value of a memory cell says little about its change by a signal.
     a, (balance, _) = scipy.linalg.matrix_balance(matrix[np.ix_(cells, cells)], permute=False, separate=True)
     return LiftedModel(
         a=a,
@@ -102,7 +102,7 @@ def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np
 
 
 def _in_between(columns: np.ndarray, driven: list) -> np.ndarray:
-    """Return for every cell whether an excitation affects it, and it affects an output."""
+    """Return True for each cell that an excitation affects and that affects an output."""
     count = columns.shape[1]
     moved = _perturb(columns, driven)
     return moved & _moves(columns, np.any(columns[count:] != 0.0, axis=0))

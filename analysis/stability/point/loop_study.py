@@ -26,11 +26,11 @@ from .responses import NOT_LINEAR, LoopModel, agreement, disagreement
 from .silence import find_silent_end
 
 SILENT = "none of the injected signal returns: L is 0"
-RETURN_LIMIT = 1e-9  # gain below which nothing comes back
+RETURN_LIMIT = 1e-9  # gain below which there is no return signal
 FACTORS = (0.25, 4.0, 16.0)  # factors on the declared amplitude, in addition to 1
 FIRST_LOOK = 1e-3  # fraction of the Nyquist frequency at which a measurement without a linearisation begins
-TEST_POINTS = 40  # frequencies at which a model is looked at
-LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
+TEST_POINTS = 40  # number of frequencies at which a model is evaluated
+LOOP_GAIN = 5.0  # a measurement begins low enough if the gain of its lowest line is at least this
 LINES_FROM = 10.0  # factor on the lowest frequency: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
 
@@ -136,7 +136,7 @@ class LoopStudy:
     def check_loop(self) -> None:
         """Raise StudyError without a return signal, for unbounded growth, and if no method finds a linear loop.
 
-        For a nonlinear loop the message has L over the amplitude.
+        For a nonlinear loop the message contains L over the amplitude.
         """
         if self.unstable is not None and (self.model is None or self._doubtful):
             raise self.unstable
@@ -219,7 +219,7 @@ class LoopStudy:
         assessment, _ = self.assessed
         if not np.any(assessment.curve.value):
             self.notes["loop"] = SILENT
-        # what grows outside does so whether or not the loop's own derivatives can be trusted
+        # growth outside the loop does not depend on whether the loop's derivatives can be trusted
         trusted = self.model is not None and ("linearisation" not in self.notes or self.model.outside)
         model = self.model if trusted else None
         poles = np.array([mode.z for mode in model.modes]) if model else np.zeros(0, dtype=complex)

@@ -21,7 +21,7 @@ from .lifted import LiftedModel, SampledChannel
 APART = 1e-4  # fraction of the largest: a mode with a smaller response is outside the loop, or rounding
 KINDS = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
 RANK = 1e-9  # fraction of the largest singular value
-ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
+ADDS_UP = 1e-6  # distance from 1: a cell with such a multiplier only accumulates or holds, for any parameters
 
 
 def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
@@ -40,7 +40,7 @@ def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
     for place in np.argsort(-abs(values), kind="stable"):
         z = complex(values[place])
         is_excited, is_observed = into[place] > APART, out[place] > APART
-        if residue[place] <= APART:  # the weaker side is the one that is missing
+        if residue[place] <= APART:  # the smaller of the two is the missing one
             is_excited, is_observed = is_excited and into[place] >= out[place], is_observed and out[place] > into[place]
         kind = KINDS.get((bool(is_excited), bool(is_observed)), "neither")
         classified.append(_mode(z, model.period, kind, float(into[place]), float(out[place])))
@@ -84,8 +84,8 @@ class CoupledMemory:
     """Memory cells each of which affects all others.
 
     ``multipliers`` are in descending order, and ``change`` is the change of the largest with the next smaller steps of
-    the differences. ``moved`` and ``moves`` tell for every port whether its cut affects the cells, and whether they
-    affect the cut.
+    the differences. For every port, ``moved`` is True if its cut affects the cells, and ``moves`` is True if the cells
+    affect its return signal.
     """
 
     names: tuple[str, ...]

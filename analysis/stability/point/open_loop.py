@@ -1,11 +1,13 @@
 """Loop opened at its break point, as a state space with the loop's sample period, from the lifted closed loop.
 
 The lifted model maps the memory over a hyperperiod of M samples of the loop. If the loop does not change from sample to
-sample its outputs are those of one state space at every sample, x[k+1] = A x[k] + B u[k]: B is the lifted input matrix
-of the last sample, C the lifted output matrix of the first, and A shifts the observability matrix by one sample, O A =
-O', which is solved by least squares in the coordinates of the memory. It is compared with the lifted model before it is
-used. Source: Kung 1978, A new identification and model reduction algorithm via singular value decomposition (shift of
-the observability matrix); Bittanti and Colaneri 2009, Periodic Systems, section 6.2 (lifted reformulation).
+sample, one state space describes its outputs at every sample, x[k+1] = A x[k] + B u[k]: B is the lifted input matrix of
+the last sample, C the lifted output matrix of the first, and A shifts the observability matrix by one sample, O A = O',
+which is solved by least squares in the coordinates of the memory. It is compared with the lifted model before it is
+used.
+
+Source: Kung 1978, A new identification and model reduction algorithm via singular value decomposition (shift of the
+observability matrix); Bittanti and Colaneri 2009, Periodic Systems, section 6.2 (lifted reformulation).
 """
 
 from __future__ import annotations
@@ -26,8 +28,8 @@ NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information
 def open_loop(model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
     """Return L of some ports with one sample period, their cuts open and other loops closed.
 
-    ``model`` is reduced for these ports. The result has the ports' own sample period if they do not change from sample
-    to sample, else it is lifted over the hyperperiod.
+    ``model`` is reduced for these ports. The result has the ports' sample period if they do not change from sample to
+    sample, else it is lifted over the hyperperiod.
     """
     lifted = _open(model, ports)
     if lifted.samples > 1:

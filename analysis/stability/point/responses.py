@@ -27,14 +27,14 @@ MOST_BLUR = 1e-3
 INTEGRATOR = 0.1  # fraction of the lowest frequency: 0.002 of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
 # Steps of differences at a point whose plateau is known: near the cube root of the rounding of a double, where
-# central differences err least
+# central differences are most accurate
 ONE_STEP = (1e-5,)
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
 
 @dataclass
 class LoopModel:
-    """Linearisation of one channel. ``outside``: unstable state variables outside the loop, the fastest first."""
+    """Linearisation of one channel; ``outside`` names unstable state variables outside the loop, the fastest first."""
 
     model: LiftedModel
     port: SampledChannel
@@ -76,12 +76,12 @@ class LoopModel:
 
     @property
     def has_plateau(self) -> bool:
-        """True if its derivatives can be trusted."""
+        """True if the derivatives in the model can be trusted."""
         return self.facts.plateau <= DOUBTFUL
 
     @property
     def largest(self) -> float:
-        """Largest multiplier of a closed-loop mode that is in the loop or, if unstable, outside; 0 without any."""
+        """Largest multiplier of a closed-loop mode that is in the loop or, if unstable, outside; 0 without modes."""
         own = [abs(mode.z) for mode in self.modes if mode.kind == "loop"]
         return max([0.0, *own, *(float(abs(block.multipliers[0])) for block in self.outside)])
 

@@ -15,10 +15,10 @@ from ..loops.growth import WINDOWS, growth_to_overflow, steady_growth
 from ..request.channels import Channel
 from .bench import Bench, OverflowedError, StudyError
 
-PERIODS = 4  # hyperperiods in which a component's outputs are to move
-SMALL = 1e-6  # fraction of a signal's size, as in the linearisation
-NUMBERS = ("Real", "Integer", "Boolean", "Enumeration")  # types of outputs that can move
-ROUNDING = 1e-12  # fraction of an output's size, below which a change is rounding
+PERIODS = 4  # hyperperiods within which a component's outputs must respond
+SMALL = 1e-6  # fraction of a signal's magnitude, as in the linearisation
+NUMBERS = ("Real", "Integer", "Boolean", "Enumeration")  # types of outputs that can respond
+ROUNDING = 1e-12  # fraction of an output's magnitude, below which a change is rounding
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,11 @@ class SilentEnd:
 def find_silent_end(
     prepared: PreparedSystem, bench: Bench, channel: Channel, peak: float, wave: np.ndarray, measured: bool
 ) -> SilentEnd:
-    """Return where a silent loop ends, from simulations that record all outputs after the cut.
+    """Return the end of a silent loop, from simulations that record all outputs after the cut.
 
     ``wave`` [samples] with its peak ``peak`` is added for some periods to find growing outputs. If the loop was
-    ``measured``, it also shows which components respond; otherwise changes as small as those of the linearisation do.
+    ``measured``, the same simulation shows which components respond; otherwise a simulation with a disturbance as small
+    as in the linearisation does.
     """
     path = _path(prepared.network, channel)
     names = [name for group in path.outputs.values() for name in group]
@@ -83,7 +84,7 @@ def _disturb(
         for name in names:
             signal = disturbed[name]
             deviation = (signal - base[name][: len(signal)])[bench.origin + 1 :]
-            if name in injected:  # the excitation itself is no response
+            if name in injected:  # the excitation itself is not a response
                 deviation = deviation - injected[name][: len(deviation)]
             deviation = deviation[:: channel.period]
             size = float(np.max(abs(base[name]), initial=0.0))
@@ -97,9 +98,10 @@ def _disturb(
 
 @dataclass(frozen=True)
 class _Path:
-    """Components from a cut to its return signal: ``first`` read the cut, ``readers`` each output by its name.
+    """Components from a cut to its return signal.
 
-    ``outputs`` are those of all components on the path, by component.
+    ``first`` are the components that read the cut, ``readers`` the components that read each output, and ``outputs``
+    the outputs of all components on the path, by component.
     """
 
     first: set[str]

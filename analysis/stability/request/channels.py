@@ -21,10 +21,10 @@ Signals = Mapping[str, np.ndarray]
 class Channel:
     """One scalar signal that is cut.
 
-    ``connectors`` are those that are excited: one, or the size and the three components of a direction of which
-    ``axis`` is excited. With ``rates``, the connectors of the direction's rate, the effective direction is the one
-    reached ``ahead`` (s) later. ``returned`` is the connector of the return signal, unless it is the cut itself.
-    ``period`` is the loop's sample period in communication points.
+    ``connectors`` are the excited connectors: a single one, or the magnitude and the three components of a direction,
+    of which ``axis`` is excited. With ``rates``, the connectors of the direction's rate, the effective direction is the
+    direction reached ``ahead`` (s) later. ``returned`` is the connector of the return signal, unless this is the cut
+    itself. ``period`` is the loop's sample period in communication points.
     """
 
     name: str
@@ -54,7 +54,8 @@ class Channel:
     def excitation(self, signals: Signals, added: np.ndarray) -> np.ndarray:
         """Return the excitation of each connector [r, connectors] that adds ``added`` [r] at the cut.
 
-        ``signals`` are those of the undisturbed simulation: a vector's size and direction change together along them.
+        ``signals`` are from the undisturbed simulation. To change one component of a vector, its magnitude and its
+        direction are excited together.
         """
         if self.axis is None:
             return added[:, None]

@@ -30,11 +30,11 @@ class MarginLimits:
 
 @dataclass(frozen=True)
 class PointDeclaration:
-    """Operating point of a linearisation: the first communication point from ``time`` (s) on that fits its rates.
+    """Operating point of a linearisation: the first multiple of the hyperperiod at or after ``time`` (s).
 
-    ``signal`` and ``falls_to`` select instead the first communication point at which a signal is at most a value.
-    ``layer`` are the system options of the operating point. ``until`` (s) limits measurements; None: unlimited.
-    ``phase`` describes what the system does there.
+    ``signal`` and ``falls_to`` replace ``time`` by the first communication point at which the signal is at most this
+    value. ``layer`` are the system options of the operating point. ``until`` (s) limits measurements; None: unlimited.
+    ``phase`` describes what the system does at the point.
     """
 
     name: str
@@ -50,8 +50,8 @@ class PointDeclaration:
 class NonlinearElement:
     """Nonlinear element at a loop's cut: the kind and parameters of its describing function.
 
-    ``layer`` changes the operating point for the simulation with which a predicted limit cycle is compared: the FMUs or
-    values with which the element acts. An empty layer: no simulation.
+    ``layer`` changes the operating point for the simulation with which a predicted limit cycle is compared: it selects
+    the FMUs or values with which the element acts. With an empty layer there is no simulation.
     """
 
     name: str
@@ -62,13 +62,13 @@ class NonlinearElement:
 
 @dataclass(frozen=True)
 class LoopDeclaration:
-    """Loop and its ``cut``: a connector, or a vector of connectors, of which each component is a channel.
+    """Loop and its ``cut``: a connector, or a vector of connectors, each of which is a channel.
 
-    With ``direction``, a vector of three connectors, the cut is the connector ``cut`` (a size) times ``direction``,
-    with the channels x, y, z; with ``direction_rate`` it is the direction that this rate reaches ``ahead`` (s) later.
+    With ``direction``, a vector of three connectors, the cut is the connector ``cut`` (a magnitude) times
+    ``direction``, with the channels x, y, z; with ``direction_rate`` the direction is extrapolated by ``ahead`` (s).
     ``returned`` is the return signal if it is not at the cut itself, with as many components. ``period`` (s) is the
     loop's sample period; None: every communication point. ``amplitude`` of the injected signal is in the cut's unit;
-    None: 1 % of the signal. ``points`` are names.
+    None: 1 % of the signal. ``points`` are names of operating points.
     """
 
     name: str

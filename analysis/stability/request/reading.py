@@ -1,4 +1,4 @@
-"""Reads a system's declaration of its loops from the `org.perilune.stability` annotation of its SSD."""
+"""Reader of a system's declaration of its loops, the `org.perilune.stability` annotation of its SSD."""
 
 from __future__ import annotations
 

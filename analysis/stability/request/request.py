@@ -25,9 +25,9 @@ from .reading import read_declaration
 class Request:
     """Request for a study, small enough to be sent to every worker.
 
-    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign over which margins are
-    dispersed, ``campaign`` its name as requested, ``draws`` the file of supplied draws. ``at`` are the user's times (s)
-    for points; none if the declared ones are used.
+    ``name`` and ``label`` identify the system and its place in messages. ``plan`` is the campaign over which margins
+    are dispersed, ``campaign`` its name as requested, and ``draws`` the file of supplied draws. ``at`` contains the
+    user's times (s) of points; it is empty if the declared points are used.
     """
 
     name: str
@@ -65,11 +65,11 @@ def read_request(
 ) -> Request:
     """Return the request for a study of all or some of a system's loops.
 
-    ``loops`` are names of declared loops, or connectors of undeclared ones, which are cut at the times ``at`` (s; 0 by
-    default). Declared loops are then studied at these times, too, with the settings of their declared points, and
-    without sweeps, which belong to those points. With ``campaign``, of which ``configuration`` selects a variant,
-    margins are dispersed over its trials, or with ``trial`` the study uses that trial's draws. ``draws`` is a file of
-    draws that replace drawn ones. Raises InputError.
+    ``loops`` are names of declared loops, or connectors to be cut at the times ``at`` (s; 0 by default). With ``at``,
+    declared loops are studied at these times, too, with the settings of their declared points, and without sweeps,
+    which belong to the declared points. With ``campaign``, and ``configuration`` for one of its variants, margins are
+    dispersed over its trials; with ``trial``, the study uses the draws of this trial instead. ``draws`` is a file of
+    draws that replace the campaign's. Raises InputError.
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
@@ -85,7 +85,7 @@ def read_request(
     if configuration is None:
         plan = replace(
             plan, campaign=replace(plan.campaign, compare={})
-        )  # without compared FMUs: a study is of one system
+        )  # without compared FMUs, since a study is of a single system
     if len(names := [each.name for each in plan.campaign.variants()]) > 1:
         problem = f"the campaign has {len(names)} configurations, but a study needs one"
         raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {names[0]}")
@@ -122,7 +122,7 @@ def _select(
         requested = {name for loop in selected for name in loop.points}
         here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
-        # points that differ by their time only are one under `at`: the first with the same settings
+        # with `at`, of several points that differ only by time the first is used
         same = {point.name: (_remaining(point.layer, options), point.until) for point in here}
         origins = {name: next(other for other in same if same[other] == same[name]) for name in same}
         for index, loop in enumerate(selected):

@@ -1,10 +1,12 @@
 """Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
 
-Three files have the same content: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the
-responses only. Gains are factors, frequencies rad/s, times s; signals and states are in the units next to them. The
-bytes only depend on the content. Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text
-that begins with "MATLAB 5.0 MAT-file", followed by the subsystem's offset, the version and the byte order. SciPy writes
-date and platform into it.
+`loops.json` for python-control and `loops.mat` for MATLAB have the same content, `responses.csv` the responses only.
+Gains are factors, frequencies are in rad/s, times in s; signals and states are in the units stated next to them. The
+bytes only depend on the content.
+
+Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins with "MATLAB 5.0
+MAT-file", followed by the subsystem's offset, the version and the byte order. SciPy would write date and platform into
+this text.
 """
 
 from __future__ import annotations
@@ -38,8 +40,8 @@ MODEL = (
 )
 COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "imaginary")
 LINEARISED, MEASURED = "linearised", "measured"
-DIRECT = "with_feedthrough"  # ending of what is of the other order, where FMUs leave their dependencies undeclared
-Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequency (rad/s), L
+DIRECT = "with_feedthrough"  # suffix of names of the other order, if FMUs have undeclared dependencies
+Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # (name of the response, frequency (rad/s), L)
 HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 

@@ -23,7 +23,7 @@ class LoopReport:
     loop: str  # name of the declaration
     point: str  # name of the operating point
     cut: str
-    returned: str  # signal that comes back, the cut's own unless declared otherwise
+    returned: str  # return signal, by default at the cut
     unit: str | None
     sample_period: float  # s, of the loop
     closed: tuple[str, ...]  # other loops, which stay closed
@@ -32,7 +32,7 @@ class LoopReport:
     classical: Classical
     robust: Robust
     stable: bool | None  # the whole system with all loops closed; None: unknown
-    largest: float | None  # multiplier of the loop's modes and of what grows outside of it; None: not known
+    largest: float | None  # largest multiplier of the loop's modes and of growing memory outside; None: unknown
     unstable_open: int | None  # poles of the open loop outside the unit circle
     outside: tuple[str, ...] = ()  # memory that grows outside of this loop, while all loops are closed
     modes: tuple[Mode, ...] = ()
@@ -76,9 +76,9 @@ class LoopReport:
 
 @dataclass(frozen=True)
 class JointReport:
-    """All channels of one loop opened at once, with independent scaling of each (a multivariable disk margin).
+    """All channels of one loop opened at once, each with an independent perturbation (a multivariable disk margin).
 
-    Unless the closed loop is ``stable`` the distances describe the response only: there is no margin.
+    Unless the closed loop is ``stable``, the distances describe the response only and are not a margin.
     """
 
     name: str
@@ -103,9 +103,9 @@ class JointReport:
 class PointReport:
     """Operating point: where the system was linearised, and how long the frozen-time linearisation is valid.
 
-    ``time`` is that of the communication point (s); ``trim`` lists name, value, change over the period and unit of the
-    memory that changes most over one period; ``drift`` is the largest relative change of a margin's frequency response
-    over one further period, and ``holds`` the time (s) until it would be 10 % (inf: no change).
+    ``time`` (s) is the time of the communication point. ``trim`` lists name, value, change over the period and unit of
+    the memory that changes most over one period. ``drift`` is the largest relative change of a margin's frequency
+    response over one further period, and ``holds`` is the time (s) until this change would be 10 % (inf: no change).
     """
 
     name: str
@@ -121,8 +121,7 @@ class PointReport:
 class FailedStudy:
     """Requested result that could not be obtained: a loop at a point, its joint channels, a sweep.
 
-    ``verdict`` is the one that follows from ``reason`` without figures: fail or not applicable; None if it was not
-    studied.
+    ``verdict`` follows from ``reason`` without margins: fail or not applicable; None if nothing was studied.
     """
 
     name: str
@@ -152,10 +151,10 @@ class JudgedRequirement(NamedTuple):
 class Orders:
     """Study, in both orders, of loops with FMUs that have undeclared dependencies.
 
-    ``undeclared`` are these FMUs' names by component, assumed to have no feedthrough in simulations; ``direct`` are the
-    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it,
-    since it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None if none can
-    have it, so that there is only one order.
+    ``undeclared`` maps components to the names of these FMUs, which simulations assume to have no feedthrough.
+    ``report`` is the study in the other order, in which the components ``direct`` have feedthrough. The components
+    ``without`` cannot have it, since it would close an algebraic loop, which the initialisation cuts at ``cuts``. If no
+    component can have feedthrough there is only one order, and ``report`` is None.
     """
 
     undeclared: dict[str, str]
@@ -172,9 +171,10 @@ class Orders:
 
 @dataclass
 class StabilityStudy:
-    """Report on one system. ``unstudied`` are the results that could not be obtained, each with its reason.
+    """Report on one system.
 
-    ``orders``: the other order of undeclared FMUs, None if no loop contains one.
+    ``unstudied`` are the results that could not be obtained, each with its reason. ``orders`` is the study in the other
+    order of FMUs with undeclared dependencies, None if no loop contains one.
     """
 
     system: str

@@ -20,7 +20,7 @@ class Scope(StrEnum):
 class MarginVerdict(StrEnum):
     PASS = "pass"
     FAIL = "fail"
-    WITHHELD = "withheld"  # it depends on what an FMU does not declare
+    WITHHELD = "withheld"  # depends on undeclared dependencies of an FMU
     NOT_APPLICABLE = "not applicable"
 
 
@@ -80,7 +80,7 @@ def combine(requirements: Iterable[MarginRequirement]) -> MarginVerdict:
 
 
 def combine_verdicts(verdicts: Iterable[MarginVerdict]) -> MarginVerdict:
-    """Return fail if one fails, withheld if one is, pass if one passes; what is not applicable does not count."""
+    """Return the first of fail, withheld and pass that is among the verdicts; not applicable if none is."""
     known = set(verdicts)
     return next(
         (token for token in (MarginVerdict.FAIL, MarginVerdict.WITHHELD, MarginVerdict.PASS) if token in known),

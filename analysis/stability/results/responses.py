@@ -18,8 +18,8 @@ class Mode:
 
     ``z`` is the multiplier over one period, ``s`` the equivalent log(z)/period (rad/s; not unique above the Nyquist
     frequency of the period). ``kind`` is "loop" for modes that are controllable and observable at the cut, else "not
-    controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the sizes of the mode's
-    input and output vectors, relative to the largest.
+    controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the norms of the mode's
+    input and output vectors, relative to the largest norm of any mode.
     """
 
     z: complex
@@ -45,31 +45,31 @@ class Structure:
 
 @dataclass(frozen=True)
 class Linearised:
-    """Properties of the Jacobian that tell whether it can be trusted."""
+    """Properties of the Jacobian that show whether it can be trusted."""
 
     states: int
     period: float  # s, over which the Jacobian was taken
     plateau: float  # largest relative change of a column between neighbouring steps of the difference
     doubtful: tuple[str, ...]  # memory whose columns have no plateau: kinks, switches
-    periodicity: float  # largest share of the response that comes back at other frequencies; 0: time-invariant
+    periodicity: float  # largest share of the response at other frequencies; 0: time-invariant
 
 
 @dataclass(frozen=True)
 class Measured:
-    """Properties of the injection that tell whether it can be trusted."""
+    """Properties of the injection that show whether it can be trusted."""
 
     amplitude: float  # amplitude of one line, in the cut's unit
     lines: int
     periods: int
     period: float  # s, of the multisine
     half_amplitude_change: float  # largest relative change of L between full and half amplitude
-    unexcited: float  # largest response on unexcited lines relative to the excited ones': nonlinearity, noise
+    unexcited: float  # largest response on unexcited lines over the response on excited ones: nonlinearity, noise
     curve: FrequencyResponse
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """Largest difference of the two methods below half the Nyquist frequency."""
+    """Largest difference between the two methods below half the Nyquist frequency."""
 
     gain: float  # factor, at least 1
     phase: float  # rad
@@ -117,7 +117,7 @@ class AmplitudePoint:
 
     amplitude: float
     value: complex
-    change: float  # relative to the smallest amplitude's
+    change: float  # relative to the smallest amplitude
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # quantiles of dispersed marg
 
 @dataclass(frozen=True)
 class StepMargins:
-    """Margins with another communication step (s); None if there are none, with the reason in ``note``."""
+    """Margins with another communication step (s); None if they do not exist, with the reason in ``note``."""
 
     step: float
     margins: LoopMargins | None
@@ -25,8 +25,8 @@ class StepMargins:
 class Dispersion:
     """Margins over the trials of a campaign.
 
-    ``worst`` is the trial with the least disk margin, or if there are unstable ones that with the largest multiplier;
-    ``replay`` is the command that studies it again. ``poles`` are the closed-loop multipliers of all trials,
+    ``worst`` is the trial with the least disk margin or, if there are unstable trials, with the largest multiplier;
+    ``replay`` is the command that studies this trial again. ``poles`` are the closed-loop multipliers of all trials,
     concatenated.
     """
 
@@ -59,7 +59,7 @@ class Dispersion:
 class SweepCrossing:
     """Value of the parameter at which a margin reaches its limit, or the loop becomes unstable.
 
-    ``below``: smaller values fail.
+    ``below`` is True if smaller values fail.
     """
 
     quantity: MarginQuantity

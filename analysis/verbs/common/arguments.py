@@ -11,7 +11,7 @@ from ...options.option import FilePath
 
 
 def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
-    """Read requirements on ``known`` numbers, or on those with a prefix among ``families``. Raises InputError."""
+    """Read requirements on numbers named in ``known`` or with a prefix in ``families``. Raises InputError."""
     requirements = [Expression(text, ("`require`", text)) for text in texts]
     for requirement in requirements:
         for name in sorted(requirement.names - set(known)):

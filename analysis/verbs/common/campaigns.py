@@ -37,7 +37,7 @@ from .arguments import read_requirements
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
     """Read the plan of a campaign with the options of a verb. Raises InputError."""
     settings, sweeps = split_sweeps(system_options(options))
-    if sweeps and "trials" not in options:  # a study, which samples the campaign itself
+    if sweeps and "trials" not in options:  # the options of a study, which draws the samples
         name, text = next(iter(sweeps.items()))
         raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
     series, draws = options["input"], options.get("draws")
@@ -97,7 +97,7 @@ def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Express
 
 
 def commands_of(plan: BatchPlan) -> StudyCommands:
-    """Return the writers of commands for the simulations of a study."""
+    """Return functions that write the commands for the simulations of a study."""
     (variant,) = plan.campaign.variants()
 
     def replay(draws: Path, trial: int) -> str:

@@ -83,7 +83,7 @@ def conditions(options: ConditionOptions) -> Conditions:
 
 
 def store_result(kind: Callable[..., Study], result: StudyResult, folder: Path | None, **more: object) -> Study:
-    """Convert a study's result to its public subclass ``kind`` with the fields ``more``, and write it to its folder."""
+    """Convert a study's result to its public subclass ``kind`` with the fields ``more``, and write its folder."""
     complete = kind(**{field.name: getattr(result, field.name) for field in fields(result)}, folder=folder, **more)
     if folder is not None:
         try:

@@ -27,12 +27,12 @@ PURPOSES = {  # headings of `perilune --help`
     "Distribute": (EXPORT, PREPARE, SHARD, MERGE),
 }
 VERBS: dict[str, Verb] = {verb.name: verb for verbs in PURPOSES.values() for verb in verbs}
-GROUPS = {  # first word of verbs -> what they do
+GROUPS = {  # first word of verbs -> purpose of the group
     "new": "write a template for your own block or system",
     "design": "design control laws, and plans of least propellant",
 }
 
-# Verbs of earlier releases under their present names, ...
+# Verbs of earlier releases, with the present name of each.
 RENAMED = {
     "law": "design law",
     "synthesize": "design search",
@@ -40,7 +40,7 @@ RENAMED = {
     "plan landing-bound": "design bound",
     "plan": "design transfer or perilune design bound",
 }
-# ... and the message about each that no longer exists.
+# Verbs of earlier releases that no longer exist, with the message for each.
 FORMER = {old: f"renamed; write perilune {new}" for old, new in RENAMED.items()} | {
     "benchmark": "left the package; run `make bench` in a checkout of Perilune"
 }

@@ -26,7 +26,7 @@ def text_offset(axis: Axis) -> float:
 
 
 def draw_axes(frame: FluidFrame) -> Iterator[str]:
-    """Yield the elements of both axes; none for axes with texts of size 0, as in a drawing."""
+    """Yield the elements of both axes; no elements for axes with text of size 0, as in a drawing."""
     if not frame.x.size and not frame.y.size:
         return
     ticks, few = list(enumerate(frame.x.ticks)), set(frame.x.few)

@@ -65,7 +65,7 @@ class Frame:
         return f"{y:.2f}"
 
     def stretch(self, elements: str) -> str:
-        """Return paths with coordinates of this frame; here unchanged."""
+        """Return paths in coordinates of this frame, which are left unchanged."""
         return elements
 
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:

@@ -1,6 +1,6 @@
 """Elements of a three-dimensional scene: bodies with position and attitude, a ground, sites, jets, lines, arrows.
 
-The frame of a scene is right-handed and that of the signals; positions are in m. If positions are longitude, latitude
+The frame of a scene is the right-handed frame of its signals; positions are in m. If positions are longitude, latitude
 and height, the frame is east, north, up at the ground below the last sample. A sphere's centre is by default at (0, 0,
 -radius); a plane is z = 0. An attitude rotates body axes to axes of the scene.
 """
@@ -65,9 +65,9 @@ class ThrustAxis:
 class WindAngles:
     """An attitude relative to the velocity over the ground, by angles (rad).
 
-    Velocity axes: x along the velocity, y upwards in the vertical plane through it, z = x x y. They are rotated by bank
-    about x, sideslip about y, angle of attack about z. The heading is from east, counter-clockwise as viewed from
-    above.
+    Velocity axes: x along the velocity, y upwards in the vertical plane through it, z completes the right-handed frame.
+    The velocity axes are rotated by bank about x, sideslip about y, angle of attack about z. The heading is from east,
+    counter-clockwise as viewed from above.
     """
 
     bank: Signal
@@ -118,8 +118,8 @@ class Panel:
 class Body:
     """A body of a ``shape`` and ``size`` along its axes (m); its centre is ``at`` (m, body axes).
 
-    For a lander this is the centre of its base. Without a position it is at the origin, without an attitude it has the
-    axes of the scene.
+    For a lander this is the centre of its base. A body without position is at the origin, and the axes of a body
+    without attitude are those of the scene.
     """
 
     name: str

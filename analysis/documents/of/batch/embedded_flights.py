@@ -33,7 +33,7 @@ class PanelLine(TypedDict):
 
 
 class FlightsPanel(TypedDict):
-    """A panel over time; its numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
+    """A panel over time; its numbers are in SI units, and ``factor`` converts them to ``unit``."""
 
     title: str
     unit: str
@@ -113,9 +113,7 @@ def _scene_names(scene: SceneFigure | None) -> set[str]:
 def _document(
     provenance: CampaignProvenance, names: Sequence[str], flights: Sequence[RecordedFlight]
 ) -> RecordedDocument:
-    """Return the document of flights: a panel per vector with a line per element, and for each flight the samples of
-    every line.
-    """
+    """Return the document of flights: a panel per vector with a line per element, and the samples of every flight."""
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {
         "panels": [

@@ -19,7 +19,7 @@ EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
 
 
 class TrialQuantity(TypedDict):
-    """A metric or sampled input, by column name; numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
+    """A metric or sampled input, by column name; its numbers are in SI, and ``factor`` converts them to ``unit``."""
 
     name: str
     unit: str
@@ -30,7 +30,7 @@ class VariantTrials(TypedDict):
     """The trials of a variant as columns.
 
     ``command`` is the text before and after a trial's number in its replay command. ``status`` are indices of
-    ``statuses``; ``exact`` has numbers by row, non-finite ones as text.
+    ``statuses``. ``exact`` contains numbers by row; non-finite ones are texts.
     """
 
     name: str

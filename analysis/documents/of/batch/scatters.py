@@ -50,7 +50,7 @@ def outcome_marks() -> list[Inline]:
 def positions(x: np.ndarray, y: np.ndarray, success: np.ndarray) -> TrialPositions:
     """Return a function that returns abscissas and ordinates of successes or failures.
 
-    The arguments contain those of all trials, [trials], as displayed.
+    The arguments ``x`` and ``y`` contain the displayed coordinates of all trials, [trials].
     """
     return lambda dots: (x[success == dots.success], y[success == dots.success])
 

@@ -62,7 +62,7 @@ def distribution_chart(
 ) -> Chart:
     """Return the empirical distributions of a metric in several series, in SI; at least one has a finite number.
 
-    The abscissa extends at least ``half_range`` (as displayed) to either side of 0, unless it is 0.
+    Unless ``half_range`` is 0, the abscissa extends at least this far (as displayed) to either side of 0.
     """
     scaled = [series * display_factor(metric.unit) for series in samples.values()]
     everything = np.concatenate(scaled)
@@ -97,7 +97,7 @@ def distribution_chart(
 def distribution_figure(
     metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look], name: str, *, is_normal: bool = False
 ) -> Figure:
-    """Return the empirical distributions of a metric as the figure ``name``; with the normal one if ``is_normal``."""
+    """Return the empirical distributions of a metric as the figure ``name``, if ``is_normal`` with the normal one."""
     chart = distribution_chart(metric, samples, styles, NORMAL_REACH if is_normal else 0.0)
     if is_normal:
         x = np.linspace(*chart.x.ends, 121)

@@ -21,7 +21,8 @@ KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", 
 def names_of_record(provenance: CampaignProvenance) -> list[str]:
     """Return the recorded signals to plot: those listed by the campaign, or in full traces those with known names.
 
-    If several components have a variable, since inputs repeat outputs, that of the first component is chosen.
+    If several components record a variable of the same name, since inputs repeat outputs, the first component is
+    chosen.
     """
     record = provenance["record"]
     if record["every"] is not None:

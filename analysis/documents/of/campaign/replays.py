@@ -44,7 +44,7 @@ def worst_reasons(row: VerdictRow, metrics: Sequence[JudgedMetric]) -> list[tupl
 
 
 def value_reason(metric: Metric, value: float | None, which: str = "") -> Cell:
-    """Return the text of a metric and its value in a trial; ``which`` tells which of its values it is."""
+    """Return the text of a metric and its value in a trial, with the prefix ``which``, such as "worst "."""
     return Phrase([f"{which}{metric.name}: ", Quantity(value, metric.unit)])
 
 

@@ -1,4 +1,4 @@
-"""Statuses of a campaign: those of its trials, and those reported by components."""
+"""Statuses of a campaign's trials, and statuses reported by components."""
 
 from __future__ import annotations
 

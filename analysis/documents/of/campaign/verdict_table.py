@@ -25,16 +25,14 @@ Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
 
 
 class JudgedMetric(NamedTuple):
-    """A metric of success or of a requirement, and the limits that they impose on it alone; None if there are no
-    limits.
-    """
+    """A metric of success or of a requirement, and the limits (or None) that they impose on this metric alone."""
 
     metric: Metric
     limits: MetricLimits | None
 
 
 class MetricCell(NamedTuple):
-    """A metric over all trials of a variant: its median and, with limits, its ``worst`` value and that ``trial``."""
+    """A metric over all trials of a variant: its median and, with limits, its ``worst`` value and the ``trial``."""
 
     median: float | None
     is_best: bool

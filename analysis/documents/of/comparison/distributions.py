@@ -21,7 +21,10 @@ NOT_EVALUATED = Expression("0")
 
 
 def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.ndarray]:
-    """Return a metric in every trial of every variant; errors over sigma of 0, which mean no sigma, become NaN."""
+    """Return a metric in every trial of every variant.
+
+    An error over sigma of exactly 0 means that there is no sigma, and becomes NaN.
+    """
     by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
     if is_over_sigma(metric):
         return {label: np.where(values == 0.0, np.nan, values) for label, values in by_label.items()}
@@ -29,7 +32,10 @@ def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.n
 
 
 def metric_distributions(comparison: CampaignComparison) -> dict[Metric, dict[str, np.ndarray]]:
-    """Return metrics by variant, NaN in failed trials; without a metric in kg also final masses, to show propellant."""
+    """Return metrics by variant, NaN in failed trials.
+
+    If no metric is in kg, the result contains final masses, too, since they show the propellant.
+    """
     contenders = comparison.contenders
     distributions = {
         metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
@@ -80,7 +86,7 @@ def sort_metrics(
 def metric_figures(
     distributions: Mapping[Metric, Mapping[str, np.ndarray]], metrics: Sequence[Metric], styles: Mapping[str, Look]
 ) -> list[Figure]:
-    """Return the distributions of ``metrics``, a figure each; with the normal one for errors over sigma."""
+    """Return a figure of the distributions of each metric; errors over sigma with the normal distribution."""
     return [
         distribution_figure(
             metric,

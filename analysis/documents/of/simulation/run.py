@@ -60,8 +60,8 @@ ENDINGS = {
 class RunContext:
     """System and command of a run, as stated in its document.
 
-    ``figures`` are those declared by the SSD; ``draw_diagram`` returns the block diagram; ``command`` repeats the run;
-    ``lines`` are those of a terminal.
+    ``figures`` are the figures declared by the SSD. ``draw_diagram`` returns the block diagram. ``command`` repeats the
+    run. ``lines`` are the lines of a terminal.
     """
 
     title: str

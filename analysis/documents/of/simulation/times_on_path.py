@@ -45,7 +45,7 @@ def time_notes(
     """Return labels with the times at marks of the first of the ``paths``, next to its line.
 
     A label covers neither marks of any path nor another label. A time without space for it, or whose mark is close to
-    another, has no label, except at the end. ``size`` (pt) is that of the plotting area; paths are in units of the
+    another, has no label, except at the end. ``size`` (pt) is the size of the plotting area; paths are in units of the
     axes, [2, samples]; marks are at ``rows``.
     """
     corner = np.array([chart.x.ends[0], chart.y.ends[0]])[:, None]

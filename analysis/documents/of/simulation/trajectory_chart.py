@@ -30,7 +30,7 @@ GROUND = 0.05  # of the height: depth of the grey ground
 class View(NamedTuple):
     """A view: heading, identifier, and paths of abscissas and ordinates in m, [2, samples], at times (s), [samples].
 
-    ``labels`` are those of the paths, ``names`` those of the axes; ``has_ground`` draws the ground at 0.
+    ``labels`` are the names of the paths, ``names`` are the names of the axes; ``has_ground`` draws the ground at 0.
     """
 
     title: str

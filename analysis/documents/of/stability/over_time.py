@@ -38,9 +38,9 @@ BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
 class MarginHistory:
     """Loops with equal margins over time; each loop has a report per time (s), ascending.
 
-    For each quantity, ``upper`` are the nearest margins for increasing gain or lag, and ``lower`` (negative) those for
-    decreasing gain or lead, NaN if there is none; ``sizes`` are those of the nearer margin, or `UNSTABLE` and
-    `UNLIMITED`.
+    For each quantity, ``upper`` contains the nearest margins for increasing gain or lag, and ``lower`` (negative) the
+    nearest margins for decreasing gain or lead, NaN if there is none. ``sizes`` are the sizes of the nearer margin, or
+    `UNSTABLE` and `UNLIMITED`.
     """
 
     loops: tuple[tuple[LoopReport, ...], ...]
@@ -51,7 +51,7 @@ class MarginHistory:
 
 
 def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
-    """Return the nearest margin for increasing gain or lag, and that for decreasing gain or lead.
+    """Return the nearest margin for increasing gain or lag, and the nearest for decreasing gain or lead.
 
     Both are in the quantity's unit, NaN if there is none.
     """
@@ -114,8 +114,8 @@ def course_look(index: int) -> Look:
 def over_time_chart(histories: Sequence[MarginHistory], quantity: MarginQuantity) -> Chart:
     """Return one margin of all loops over time, negative for decreasing gain or lead; forbidden values are shaded.
 
-    The mark of the nearer margin of each loop is filled, that of the other hollow. A cross at 0 is an unstable loop, a
-    triangle at the top a loop without a crossover.
+    The mark of the nearer margin of each loop is filled, the mark of the other margin is hollow. A cross at 0 is an
+    unstable loop, a triangle at the top is a loop without a crossover.
     """
     limits = sorted({limit for course in histories for key, limit in _requirements(course) if key is quantity})
     is_below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)

@@ -1,4 +1,4 @@
-"""Figures common to several loops, such as identical axes, are shown once, with the first loop.
+"""Figures common to several loops, such as identical axes, which are shown once, with the first loop.
 
 Two figures are equal if they have the same texts, lines and marks, and no point differs by more than `TOLERANCE`, less
 than half the width of a line.
@@ -33,7 +33,7 @@ class FigureContent:
 
 @dataclass(frozen=True)
 class SharedFigures:
-    """The figures shown with a loop, and the labels of those shown with another loop, by its index."""
+    """The figures shown with a loop, and labels of figures shown with another loop, by the index of that loop."""
 
     figures: ByPart
     labels_by_loop: dict[int, list[str]]

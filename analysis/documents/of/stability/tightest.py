@@ -17,10 +17,10 @@ from .words import crossing_text, limit, link, size
 
 
 def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:
-    """Return the margin requirement with the least relative reserve, the first of equal ones; None if there are no
-    limits.
+    """Return the margin requirement with the least relative reserve; None if no margin has a limit.
 
-    Instability counts as less reserve than any margin, that of the loop as less than that of its trials.
+    Of equal ones the first is returned. Instability counts as less reserve than any margin, and instability of the loop
+    as less reserve than instability of its trials.
     """
     known = [each for each in report.judgements() if _is_margin(each.requirement) and each.requirement.scope in scopes]
     return min(known, key=lambda each: (_reserve(each.requirement), scopes.index(each.requirement.scope)), default=None)
@@ -38,9 +38,7 @@ def with_mark(report: StabilityStudy, loop: LoopReport, name: Inline) -> Cell:
 
 
 def tightest_nodes(report: StabilityStudy) -> list[Text]:
-    """Return a statement of the tightest margin with its limit, or that no margin has a limit; none if there are no
-    loops.
-    """
+    """Return a statement of the tightest margin with its limit, or that no margin has one; none without loops."""
     if not report.loops:
         return []
     nearest = tightest(report)

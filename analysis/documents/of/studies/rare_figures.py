@@ -195,7 +195,7 @@ def interval_figures(study: RareOutcome) -> list[Figure]:
 
 
 def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:
-    """Return a lane for each interval with its name above; one from 0 extends to the left end with an arrow."""
+    """Return a lane for each interval with its name above; an interval from 0 ends at the left edge with an arrow."""
     positive = [end for row in rows for end in (row.low, row.high, probability or 0.0) if end > 0.0]
     left = 0.3 * min(positive)
     curves, notes = [], []

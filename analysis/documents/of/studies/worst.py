@@ -114,7 +114,7 @@ def _verdict(study: WorstOutcome) -> Verdict:
 
 
 def _objective_cell(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
-    """Return a value of the objective as a cell; without one the text that the simulation failed."""
+    """Return a value of the objective as a cell; without a value, the statement that the simulation failed."""
     return _cell(size, study.unit, is_bare=is_bare)
 
 

@@ -24,8 +24,8 @@ History = tuple[np.ndarray, np.ndarray]  # times (s) and values
 class Bands:
     """Percentiles (levels LEVELS, rows) of a quantity at ``time`` (s) over ``flights`` simulations, in SI.
 
-    The simulations are the successful ones, or the failed ones if none succeeded. ``singles`` are a few of them
-    individually, ``failed`` some of the others that failed.
+    The simulations are the successful ones, or the failed ones if none succeeded. ``singles`` are a few of these
+    simulations, ``failed`` are some of the others that failed.
     """
 
     time: np.ndarray

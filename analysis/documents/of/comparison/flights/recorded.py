@@ -52,7 +52,7 @@ class FlightQuantity:
 
 @dataclass(frozen=True)
 class ComparedFlight:
-    """Recorded signals of a trial; ``is_whole`` if the last recorded row is the end of the simulation."""
+    """Recorded signals of a trial; ``is_whole`` is True if the last recorded row is the end of the simulation."""
 
     trial: int
     success: bool
@@ -111,7 +111,7 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
 
 
 def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
-    """Return the trials of each variant to display over time: common ones, or its own if none are common.
+    """Return the trials of each variant to display over time: trials common to all variants or, without any, its own.
 
     If the campaign records a sample of trials, failed trials recorded in addition are ignored, since they would be
     overrepresented.

@@ -44,8 +44,8 @@ class FlightPath:
 class VariantPaths:
     """Paths of one variant, the horizontal position of its target, and the name of its height.
 
-    ``radius`` (m) is that of the body along whose ground downrange is measured; None if no altitude reveals it.
-    ``axes`` are those of the frame of positions.
+    ``radius`` (m) is the radius of the body along whose ground downrange is measured; None if no altitude reveals it.
+    ``axes`` are the names of the axes of positions.
     """
 
     paths: list[FlightPath]

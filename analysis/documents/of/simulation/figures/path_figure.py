@@ -85,7 +85,7 @@ def path_chart(
     """Return the chart of a path at times (s), [n], through ``position``, [2, n] in units of the axes.
 
     Its curves are the path, its end, and for each of its points (``others``, [2, n]) all positions and the last one.
-    ``label`` is that of the abscissa, which has at most ``intervals`` intervals between ticks.
+    ``label`` is the label of the abscissa, which has at most ``intervals`` intervals between ticks.
     """
     line = quantity_curve(position[0], position[1], path.y.label, None)
     end = marks(position[0, -1:], position[1, -1:], marker("o", 6.0, BLUE, fill=WHITE))

@@ -52,7 +52,7 @@ def time_chart(
     intervals: int = 6,
     y_intervals: int = 5,
 ) -> Chart:
-    """Return a chart over time; ``ends`` are those of the ordinate, as displayed.
+    """Return a chart over time; ``ends`` are the ends of the ordinate, as displayed.
 
     There are at most ``intervals`` intervals between ticks of the abscissa, and ``y_intervals`` of the ordinate.
     """

@@ -1,8 +1,8 @@
 """Responses over frequency (dB over rad/s): common elements of a loop's diagrams, limits, sensitivities.
 
-The charts do not use python-control's `bode_plot`, `nyquist_plot` and so on. These draw through pyplot's global current
-figure, add titles, legends and mathematical fonts of their own, cannot combine a measured and a computed response, and
-do not support exclusion zones. All drawn numbers are those of the study.
+The charts do not use python-control's `bode_plot`, `nyquist_plot` and so on. These functions draw through pyplot's
+global current figure, add titles, legends and mathematical fonts, cannot combine a measured and a computed response,
+and do not support exclusion zones. All drawn numbers are from the study.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def phase_mark(*, is_decisive: bool) -> Marker:
 
 
 def has_measurement(loop: LoopReport) -> FrequencyResponse | None:
-    """Return the response of the frequency-response test, if the curve is that of the linearisation."""
+    """Return the measured response if there is also a linearisation, of which the curve is; else None."""
     if loop.linearised is None or loop.measured_response is None:
         return None
     return loop.measured_response.curve

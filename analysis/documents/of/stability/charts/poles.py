@@ -26,7 +26,7 @@ SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
 
 def poles_of(loop: LoopReport) -> np.ndarray:
-    """Return all closed-loop poles; those of the modes if no others are available."""
+    """Return all closed-loop poles; the poles of the modes if no others are available."""
     return loop.poles_z if loop.poles_z.size else np.array([mode.z for mode in loop.modes], dtype=complex)
 
 
