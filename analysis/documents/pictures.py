@@ -37,7 +37,7 @@ class Figure:
     below: Chart | None = None
     look: Look | None = None
     is_printed: bool = True
-    is_reduced: bool = False  # a page has only envelopes of its curves
+    is_reduced: bool = False  # a page contains only envelopes of the curves
     trials: TrialPositions | None = None
 
 

@@ -10,7 +10,7 @@ from ..interactive.charts import Chart
 from .layout import lay_out, lay_out_fluid
 
 Ends = tuple[float, float]
-ROUNDS = 4  # iterations: other ends have other tick labels, which need other space
+ROUNDS = 4  # iterations, since the ends determine the tick labels, and these the available space
 
 
 def equal_ends(x: Ends, y: Ends, width: float, height: float) -> tuple[Ends, Ends]:

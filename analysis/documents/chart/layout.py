@@ -17,12 +17,12 @@ from .svg.frame import fraction
 from .svg.texts import overhang
 from .ticks import STEPS
 
-LABEL_GAP = 4.0  # pt, from the texts of ticks to the label of the axis
+LABEL_GAP = 4.0  # pt, distance from tick labels to the label of the axis
 NARROW, BROAD = 296.0 / POINT, 1000.0 / POINT  # pt: a page's column on the narrowest telephone and on a wide screen
-NARROWS = (320, 400, 480, 640, 800)  # px, widths below which a figure may have fewer ticks: those of page.css, `fine`
-SPACE = 6.0  # pt, between texts of ticks
+NARROWS = (320, 400, 480, 640, 800)  # px, widths below which a figure may have fewer ticks, as in page.css, `fine`
+SPACE = 6.0  # pt, distance between tick labels
 FEWEST = 2  # ticks
-CLOSE = 1e-6  # of a step, tolerance of a tick's position
+CLOSE = 1e-6  # tolerance of a tick's position, over a step
 LINE = ASCENT + DESCENT  # height of a line of text over its font size
 
 

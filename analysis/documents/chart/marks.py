@@ -9,7 +9,7 @@ from ..interactive.charts import Area, ChartNote, Rule
 from ..interactive.measures import TICK_SIZE
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
-CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and the fraction of it that they cover
+CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and the fraction of the circle that they cover
 HATCHES = 8  # strokes in half a polygon
 
 
@@ -66,7 +66,7 @@ def hatch(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
     """Return hatching of a closed convex polygon, [rows], parallel to a diagonal of its bounding box."""
     low, size = np.array([x.min(), y.min()]), np.array([np.ptp(x), np.ptp(y)])
     corners = (np.stack([x, y], axis=1) - low) / size
-    offsets = corners[:, 1] - corners[:, 0]  # of parallels through the corners
+    offsets = corners[:, 1] - corners[:, 0]  # offsets of parallels through the corners
     ends = []
     for offset in np.arange(1, 2 * HATCHES) / HATCHES - 1.0:
         edges = np.flatnonzero((offsets[:-1] - offset) * (offsets[1:] - offset) < 0.0)

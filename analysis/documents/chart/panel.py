@@ -14,8 +14,8 @@ from .layout import BROAD, lay_out_fluid
 from .svg.fluid import POINT
 from .write_svg import TrialPositions, no_trials, write_svg
 
-POINTS = 72.0  # in an inch
-ABSCISSA = 0.36  # in, of the texts of an abscissa and its label
+POINTS = 72.0  # points per inch
+ABSCISSA = 0.36  # in, height of an abscissa's tick labels and label
 
 
 def chart_panel(

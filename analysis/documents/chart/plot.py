@@ -18,7 +18,7 @@ from .plot_marks import line_style, plot_area, plot_curve, plot_dots, plot_note
 from .svg.axes import STROKE, TITLE_GAP
 from .write_svg import TrialPositions, no_trials
 
-POINTS = 72.0  # in an inch
+POINTS = 72.0  # points per inch
 KEY_LINE = 0.22  # in
 
 

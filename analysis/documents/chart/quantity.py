@@ -9,7 +9,7 @@ from ..common.quantities import display_factor, display_unit
 from ..interactive.charts import Curve, Marker
 from ..interactive.measures import DASHES, LINE_WIDTH
 
-DOT = 3.0  # pt, the diameter of a lone sample
+DOT = 3.0  # pt, diameter of the dot for a single sample
 
 
 def quantity_curve(

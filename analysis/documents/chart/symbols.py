@@ -10,7 +10,7 @@ import numpy as np
 from ..interactive.charts import Curve, Marker
 from .quantity import quantity_curve
 
-# Outlines in units of the size, abscissas and ordinates in turn, by matplotlib's letters.
+# Outlines in units of the size, as x, y, x, y, ..., by matplotlib's letters.
 OUTLINES: dict[str, tuple[tuple[float, ...], ...]] = {
     "s": ((-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5, -0.5, -0.5),),
     "D": ((0.0, -0.7071, 0.7071, 0.0, 0.0, 0.7071, -0.7071, 0.0, 0.0, -0.7071),),
@@ -37,8 +37,8 @@ OUTLINES: dict[str, tuple[tuple[float, ...], ...]] = {
     ),
 }
 ROUND = {"o": 1.0, ".": 0.5}  # diameters in units of the size
-STROKES = "+x|_"  # without an area
-SHAFT, HEAD, BARB = 0.018 * 72.0, 4.5, 5.5  # pt, and in widths of the shaft: width and length of an arrow's head
+STROKES = "+x|_"  # marks without an area
+SHAFT, HEAD, BARB = 0.018 * 72.0, 4.5, 5.5  # shaft's width (pt); head's width and length, in widths of the shaft
 
 
 def marker(kind: str, size: float, colour: str, *, fill: str | None = None, width: float = 1.0) -> Marker:

@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-MARGIN = 0.05  # of the range of the data, at either end
-STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # of ticks, times a power of ten
-DECADES = 150.0  # ratio of the ends of a logarithmic axis from which on whole decades alone have texts
-MULTIPLES = ((1.0,), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))  # of powers of ten, at which there are texts
+MARGIN = 0.05  # margin at either end, over the range of the data
+STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # steps between ticks, times a power of ten
+DECADES = 150.0  # ratio of the ends of a logarithmic axis from which only whole decades have labels
+MULTIPLES = ((1.0,), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))  # multiples of powers of ten with labels
 FEWEST = 2  # ticks
-FAR = 100.0  # distance from 0, in ranges, from which ticks count from a near round number
+FAR = 100.0  # distance from 0, in ranges, from which ticks are counted from a nearby round number
 TINY = 1e-15  # relative width up to which a range counts as empty
 SMALLEST = 1e21 * np.finfo(float).tiny  # magnitudes that count as 0
-ROUNDING = 1e-10  # of a step
+ROUNDING = 1e-10  # tolerance of rounding, over a step
 
 
 def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float]:

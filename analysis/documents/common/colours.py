@@ -29,8 +29,8 @@ HUES = {
     "purple": PURPLE,
     "orange": ORANGE,
     "sky": SKY,
-}  # by the names that declarations use
-INK, FAINT, GRID = "#222222", "#6b6b6b", "#dddddd"  # of figures
+}  # colours by their names in declarations
+INK, FAINT, GRID = "#222222", "#6b6b6b", "#dddddd"  # colours of figures
 SHIP = {
     "foil": "#c8a040",
     "metal": "#c9ced4",
@@ -38,7 +38,7 @@ SHIP = {
     "shield": "#6b4a36",
     "panel": "#27408b",
     "mark": "#d9480f",
-}  # of bodies in scenes
+}  # colours of bodies in scenes
 SHADES = {
     "ink": Shade("#222", "#e6e6e6"),  # text
     "paper": Shade("#fff", "#141414"),  # the page

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-PREFIX = "section-"  # of anchors; no identifier inside a figure begins with it
+PREFIX = "section-"  # prefix of anchors; no identifier inside a figure begins with it
 
 
 class ContentsEntry(NamedTuple):

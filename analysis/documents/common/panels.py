@@ -18,7 +18,7 @@ PANEL_WIDTH = 3.24  # in of 99 px; three in the page's column
 PANEL_HEIGHT = 2.5  # in
 HALF_WIDTH = 4.95  # in; two in the page's column
 SWATCH = 6.0  # px, the size of a mark in a legend
-KILOMETRES = 1e4  # m, from which on lengths are in km
+KILOMETRES = 1e4  # m, least length displayed in km
 
 
 class FigurePanel(NamedTuple):

@@ -11,7 +11,7 @@ POWER = re.compile(r"(?<=[A-Za-z])(-?\d)")
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS = "\N{MINUS SIGN}"
 NONE = "\N{EN DASH}"
-PLAIN_DIGITS = 6  # before the point; larger numbers have an exponent
+PLAIN_DIGITS = 6  # digits before the point; larger numbers have an exponent
 
 
 def display_unit(unit: str | None) -> str:

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-FLATNESS = 1e-3  # m; altitudes that differ by less from the height above the tangent plane show no curvature
-MISMATCH = 1e-3  # m, and this fraction of 1e6 of the distance: altitudes further from the sphere's are not above it
+FLATNESS = 1e-3  # m, least difference between altitude and height above the tangent plane that reveals the curvature
+MISMATCH = 1e-3  # m, largest error of an altitude on the fitted sphere, plus 1e-6 of the distance
 
 
 def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:

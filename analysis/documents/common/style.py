@@ -47,7 +47,7 @@ SETTINGS: Any = {
     "path.simplify_threshold": 0.2,
     "axes.formatter.use_mathtext": False,
     "axes.unicode_minus": True,
-    "text.parse_math": False,  # a $ in a name is a $
+    "text.parse_math": False,  # a $ in a name is an ordinary character
 }
 
 

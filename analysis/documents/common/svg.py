@@ -11,7 +11,7 @@ import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-IMAGE_DPI = 200  # of raster images
+IMAGE_DPI = 200  # resolution of raster images
 
 
 class Picture(Figure):

@@ -21,7 +21,7 @@ from .placement import Arrangement
 from .reading import read_graph
 
 Result = TypeVar("Result")
-MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # limits of a legible diagram; a vector is one connection
+MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # limits of a legible diagram; a vector counts as one connection
 
 SHEET = 700.0  # px, width of a page in portrait format
 BROAD = 1.6  # width over height from which a diagram is larger in landscape format

@@ -34,11 +34,11 @@ COLOURS = {
     "sequencing": colours.SKY,
 }
 FONT = "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif"
-WARNING = "#a84300"  # of faults
-BORDER = 2.0  # around the whole
+WARNING = "#a84300"  # colour of faults
+BORDER = 2.0  # margin around the diagram
 POINTED = "7"  # width of the line's area that reacts to the pointer
 ARROW = 6.0  # length of an arrow's head
-TO_LABEL = 10.0  # from a port to its label
+TO_LABEL = 10.0  # distance from a port to its label
 
 
 def draw(system: DiagramBlock, placement: Arrangement) -> Markup:

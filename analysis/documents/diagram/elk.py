@@ -15,10 +15,10 @@ from ..interactive.bundles import read_bundle
 MISSING = (
     "No block diagram: the layout engine is not built (npm was not available). Run `make web`, then this command again."
 )
-STRAIGHTEST = 2000  # boxes times edges up to which lines are optimised for straightness: some 3 s
+STRAIGHTEST = 2000  # product of boxes and edges up to which lines are straightened, which takes some 3 s
 FASTER = {"elk.layered.nodePlacement.strategy": "BRANDES_KOEPF"}
-PATIENCE = 60.0  # s, of one layout; 200 boxes with 500 edges take 4 to 13 s
-MEMORY = 1 << 30  # bytes of V8
+PATIENCE = 60.0  # s, time limit of one layout; 200 boxes with 500 edges take 4 to 13 s
+MEMORY = 1 << 30  # bytes, memory limit of V8
 OPTIONS = {
     "elk.algorithm": "layered",
     "elk.direction": "RIGHT",
@@ -68,7 +68,7 @@ class Engine:
         try:
             return json.loads(self.context.call("layOut", graph, timeout_sec=PATIENCE, max_memory=MEMORY))
         except JSTimeoutException as error:
-            self.context.eval("0")  # waits until the stopped call has ended
+            self.context.eval("0")  # returns after the stopped call has ended
             raise LayoutError(f"it would take more than {PATIENCE:g} s") from error
         except JSEvalException as error:  # its text contains the engine's source
             raise LayoutError("it needs too much memory, or too deep a stack") from error

@@ -17,9 +17,9 @@ from .graph import Edge, PortKey
 from .placement import Arrangement, Point, Route
 from .rows import columns_of
 
-CLEARANCE = 8.0  # between a box and the nearest line next to it
-PITCH = 5.0  # between lines
-ROW_GAP = 16.0  # between a lane and the next row
+CLEARANCE = 8.0  # distance between a box and the nearest line
+PITCH = 5.0  # distance between parallel lines
+ROW_GAP = 16.0  # distance between a lane and the next row
 
 
 class PortDirection(Enum):
@@ -156,7 +156,7 @@ class _Lanes:
             obstacles = [(box.x, box.x + box.width, box.bottom) for box in row.boxes]
             bottoms = {key: box.bottom for box in row.boxes for key in box.ports}
             for (key, _), x in self.stubs.items():
-                if key in bottoms:  # between a port and its vertical line
+                if key in bottoms:  # the line between a port and its vertical line
                     left, right = sorted((x, self.ports[key][0]))
                     obstacles.append((left, right, bottoms[key]))
             for route in row.routes:

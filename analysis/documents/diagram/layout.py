@@ -14,8 +14,8 @@ from .placement import Arrangement, PlacedBlock, Point, Route, Terminal
 from .rows import columns_of, cut_into_rows
 from .shapes import HEADER, LINE, MARGIN, TERMINAL, Label, port_label, shape_of
 
-ARROW = 12.0  # of a terminal, next to its label
-INNER = 14.0  # between a system's frame and what is inside
+ARROW = 12.0  # width of a terminal's arrow, next to its label
+INNER = 14.0  # distance between a system's frame and its content
 
 
 def lay_out(system: DiagramBlock, engine: Engine) -> Arrangement:

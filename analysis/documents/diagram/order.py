@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 Arc = tuple[int, int]
-MUCH = 2  # ratio of feedback edges from which the description's order is abandoned
+MUCH = 2  # ratio of feedback edges from which the description's order is not used
 
 
 def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:

@@ -65,7 +65,7 @@ class _GraphReader:
                 )
                 change = _change(single, source_node, target_node, is_sum=bool(connection.added))
                 bundles.setdefault((*ends, change, is_parameter), []).append((source_node, target_node))
-        entries: dict[PortKey, list[PortKey]] = {}  # to a port, by the ports that lead to it
+        entries: dict[PortKey, list[PortKey]] = {}  # entries of each port
         blocks = {block.path: block, **{each.path: each for each in block.blocks}}
         for (source_key, target_key, change, is_parameter), nodes in bundles.items():
             elements = self.elements(source_key, target_key, nodes)

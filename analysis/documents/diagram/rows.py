@@ -8,7 +8,7 @@ from itertools import accumulate
 
 from .placement import PlacedBlock, Terminal
 
-WIDEST = 1360.0  # of a row of several columns
+WIDEST = 1360.0  # largest width of a row of several columns
 
 
 @dataclass
@@ -40,8 +40,8 @@ def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]])
     """
     count = len(columns)
     inside = _edges_inside(count, arcs)
-    begins_of_rows: list[dict[int, int]] = []  # for each number of rows: by its last row's end, its begin
-    costs: dict[int, tuple[int, float]] = {0: (0, 0.0)}  # by end: edges inside, negative; squares of widths
+    begins_of_rows: list[dict[int, int]] = []  # for each number of rows: begin of the last row by its end
+    costs: dict[int, tuple[int, float]] = {0: (0, 0.0)}  # by end: minus edges within rows, sum of squared widths
     while count not in costs:
         following: dict[int, tuple[int, float]] = {}
         begins: dict[int, int] = {}

@@ -12,11 +12,11 @@ from .graph import DiagramBlock, DiagramPort, Edge, PortKey, Side
 
 NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 9.0
 LONGEST = 40  # characters of a label
-LINE = 13.0  # between ports
+LINE = 13.0  # distance between ports
 LIST_LINE = 12.0
-HEADER = 36.0  # height of a block's head: name and model
-MARGIN = 8.0  # between a block's side and its text
-GAP = 14.0  # between the labels of inputs and outputs
+HEADER = 36.0  # height of a block's heading: name and model
+MARGIN = 8.0  # distance between a block's side and its text
+GAP = 14.0  # distance between the labels of inputs and outputs
 TERMINAL = 16.0  # height of a system's connector
 
 

@@ -9,13 +9,13 @@ from pathlib import Path
 
 TABLE = Path(__file__).with_name("advances.json")  # which `make font` writes
 ELLIPSIS = "…"
-ASCENT, DESCENT = 0.928, 0.236  # of a line, of its size
-TALL, DEEP = 0.76, 0.207  # of l and p, of its size
-MIDDLE = 0.365  # of its size, from the base line to the middle of digits
-EM = 2048  # units of the font
-ZERO_WIDTH = ("Mn", "Me", "Cf")  # categories of characters that take no room
+ASCENT, DESCENT = 0.928, 0.236  # extents of a line over the font size
+TALL, DEEP = 0.76, 0.207  # extents of l and p over the font size
+MIDDLE = 0.365  # height of the middle of digits over the font size
+EM = 2048  # font units per em
+ZERO_WIDTH = ("Mn", "Me", "Cf")  # categories of characters without width
 
-Advances = dict[str, list[int]]  # by the code of the first of consecutive characters
+Advances = dict[str, list[int]]  # by the code of the first of several consecutive characters
 
 
 @cache

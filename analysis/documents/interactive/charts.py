@@ -165,7 +165,7 @@ class Fluid:
     to_scale: bool = field(default=False, metadata=PICTURE)
 
 
-NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
+NO_BOX = (0.0, 0.0, 0.0, 0.0)  # box of a chart that has not been laid out
 
 
 @dataclass(frozen=True)

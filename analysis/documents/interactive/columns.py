@@ -15,11 +15,11 @@ from typing import NamedTuple, TypedDict
 
 import numpy as np
 
-LEVEL = 9  # of zlib
-STEPS = 65534  # of a range in 16 bits; the number above is nan
+LEVEL = 9  # compression level of zlib
+STEPS = 65534  # steps of a range in 16 bits; the next number is NaN
 DECADES = 1e3  # ratio of the greatest magnitude to the small ones from which a range has a knee
-SMALL = 0.05  # the fraction of magnitudes that are small
-ROUNDING = 5e-4  # of an axis, by which float32 may move a point
+SMALL = 0.05  # fraction of magnitudes that count as small
+ROUNDING = 5e-4  # fraction of an axis by which float32 may move a point
 
 
 class Coarse(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-SPANS = 1000  # of equal numbers of rows, up to one
+SPANS = 1000  # spans of an envelope, whose numbers of rows differ by at most one
 
 
 def envelope(x: np.ndarray, y: np.ndarray, spans: int = SPANS) -> tuple[np.ndarray, np.ndarray]:

@@ -11,8 +11,8 @@ from ...runtime.system.feedthrough import Origin
 from ..model import Document, Listing, Node, Text
 
 LONGEST_LIST = 60  # characters of a list of values, beyond which it is cut
-TITLES = (16,)  # columns of a title
-LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
+TITLES = (16,)  # widths of columns of titles
+LISTS = ("parameter_sets", "campaigns", "loops")  # lists of a system
 VARIABLES = {
     ("input", False): "inputs",
     ("output", False): "outputs",

@@ -14,7 +14,7 @@ from ..model import Document, Fold, Node, Note, Section, Table, Text
 from ..pictures import Figures
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 
-NAMED = 6  # signals of one run alone
+NAMED = 6  # listed signals that only one run has
 COMPARED_DIGITS = 9  # of the numbers that differ
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..cell import Code, CommandLine
 from ..model import Document, Listing, Node, Text
 
-if TYPE_CHECKING:  # templates need an engine that a verb without any does not
+if TYPE_CHECKING:  # templates need an engine that other verbs do not
     from ...authoring.block import CreatedFiles
 
 

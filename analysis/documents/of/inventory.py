@@ -9,7 +9,7 @@ from ..model import Document, Listing, Node
 
 TITLES = 16  # columns of the titles of a system's files
 BUILT = 15  # columns of the flavours that are built
-LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
+LISTS = ("parameter_sets", "campaigns", "loops")  # lists of a system
 
 
 def inventory_document(content: Mapping[str, Any], lists: Sequence[str] = LISTS) -> Document:

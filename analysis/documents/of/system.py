@@ -15,7 +15,7 @@ from ..diagram.graph import DiagramBlock
 from ..model import Document, KeyNumbers, Missing, Node, Note, Section, Table
 from ..pictures import Blocks
 
-MAX_NAMED = 20  # outputs of a block without connection
+MAX_NAMED = 20  # unconnected outputs of a block that are named
 
 
 def system_document(prepared: PreparedSystem) -> Document:

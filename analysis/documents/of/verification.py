@@ -13,7 +13,7 @@ from ..common.quantities import number
 from ..model import Document, Node, Text
 
 VERIFIED, COMPARED, DIFFERENT = "verified", "compared", "different"  # verdicts
-NAMED = 6  # differing signals of an experiment
+NAMED = 6  # listed signals of an experiment that differ
 
 
 def verification_document(files: Sequence[Verification]) -> Document:

@@ -34,7 +34,7 @@ from ..common.panels import mark_swatch, swatch
 from ..common.quantities import display_unit
 from ..interactive.charts import Curve, Marker
 
-BAR = 220.0  # px, of all
+BAR = 220.0  # px, length of a bar of 100 %
 
 
 def cell_markup(cell: Cell) -> Markup:

@@ -12,7 +12,7 @@ from .words import cell_text
 
 WIDEST = 100  # columns of a line
 LONGEST = 48  # characters of a column; longer entries shift the rest of their line
-INDENT = "  "  # of rows below a heading
+INDENT = "  "  # indentation of rows below a heading
 
 
 def wrap_line(line: str, indent: int) -> list[str]:

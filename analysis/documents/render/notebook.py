@@ -19,7 +19,7 @@ from .words import cell_text, heads_of, number_line, rich_text, rows_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-ROWS = 2  # of figures
+ROWS = 2  # rows of figures
 
 
 def document_view(document: Document) -> str:

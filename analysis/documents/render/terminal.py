@@ -25,7 +25,7 @@ from ..model import (
 from .columns import listing_lines, wrap_line
 from .words import cell_text, heads_of, number_line, rich_text, rows_of
 
-CONTINUED = 4  # columns before further lines of a statement
+CONTINUED = 4  # columns by which further lines of a statement are indented
 
 
 def document_lines(document: Document) -> list[str]:

@@ -13,8 +13,8 @@ import numpy as np
 from .ground import Ground
 from .view import SceneView, position_at
 
-LOWEST = 0.05  # of the distance, at most 2 m: minimum height of the camera above the ground
-DEEP = -0.5  # radii: below, axes are those of the frame
+LOWEST = 0.05  # least height of the camera above the ground over its distance, at most 2 m
+DEEP = -0.5  # height in radii below which the camera's axes are the frame's
 UP = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 FORWARD = {"x": "y", "y": "x", "z": "x"}
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-NEAR = 1e-2  # m, the least depth
-WIDER = 1.05  # than the picture, so that cut edges are outside it
+NEAR = 1e-2  # m, least depth
+WIDER = 1.05  # width of the clipping region over the picture's, so that clipped edges are outside the picture
 
 
 def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:

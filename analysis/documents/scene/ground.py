@@ -9,9 +9,9 @@ import numpy as np
 
 from .view import SceneView
 
-CORNERS = 720  # of the horizon of a sphere
-FARTHEST = 1e4  # heights, to the edge of a plane
-SUNK = 0.5  # m; points less far below the ground are not hidden
+CORNERS = 720  # corners of the horizon of a sphere
+FARTHEST = 1e4  # distance to the edge of a plane, in heights of the eye
+SUNK = 0.5  # m, depth below the ground up to which points are not hidden
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ from .pen import AXES, HEIGHT, WIDTH, lighter, text, to_units
 from .strokes import ArrowStrokes, attitude_at
 from .view import BodyView, SceneView, SiteView, position_at
 
-NAMED, RINGED = 0.23, 0.045  # of the picture's height: larger bodies have no name, no ring
-CORNER = (WIDTH - 46.0, 40.0)  # of the axes
-AXIS = 22.0  # length
+NAMED, RINGED = 0.23, 0.045  # sizes over the picture's height above which bodies have no name, no ring
+CORNER = (WIDTH - 46.0, 40.0)  # position of the frame's axes
+AXIS = 22.0  # length of an axis
 
 
 def draw_names(

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from markupsafe import Markup
 
-SAME = 1e-6  # of the depth: distance up to which a point is on a plane
+SAME = 1e-6  # distance up to which a point counts as on a plane, over its depth
 
 
 class Stroke(NamedTuple):

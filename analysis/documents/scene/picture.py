@@ -18,7 +18,7 @@ from .strokes import arrow_strokes, body_strokes, line_strokes
 from .view import SceneView
 
 FAINT = 0.3  # opacity of an arrow where a body hides it
-STEP = 0.5  # units, from point to point of a path
+STEP = 0.5  # units, least distance between points of a path
 
 
 def draw_ends(scene: SceneView) -> list[tuple[float, Markup]]:

@@ -14,9 +14,9 @@ from ..common.colours import SHIP
 from .view import BodyView
 
 FOIL, METAL, DARK, SHIELD, PANEL, MARK = SHIP.values()
-SIDES = 24  # of round solids
-X_FORWARD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z goes to x
-LEG = 0.02  # width
+SIDES = 24  # sides of round solids
+X_FORWARD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # rotates z to x
+LEG = 0.02  # width of a leg
 
 
 class Facet(NamedTuple):

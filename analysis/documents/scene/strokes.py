@@ -16,11 +16,11 @@ from .pen import BEAM, HEIGHT, WIDTH, lighter, path, point_of
 from .solids import facets_of
 from .view import ArrowView, BodyView, SceneView, position_at
 
-SHAFT, HEAD = 0.026, (0.16, 0.1)  # of an arrow: width, and length and width of its head, over its length
-SEGMENTS = 24  # of a shaft, each behind or before the facets of a body
-OVERLAP = 0.2  # of a segment, which closes gaps
-LIGHT = np.array([-0.515, 0.735, -0.441])  # towards it, from the left, above and behind the camera
-DARKEST = 0.6  # of a facet's colour
+SHAFT, HEAD = 0.026, (0.16, 0.1)  # shaft's width, and the head's length and width, over an arrow's length
+SEGMENTS = 24  # segments of a shaft, which are ordered individually behind or before facets
+OVERLAP = 0.2  # fraction by which segments overlap, to close gaps
+LIGHT = np.array([-0.515, 0.735, -0.441])  # direction towards the light: from the left, above and behind the camera
+DARKEST = 0.6  # least brightness of a facet
 
 
 def body_strokes(scene: SceneView, camera: Camera, row: int) -> Iterator[Stroke]:

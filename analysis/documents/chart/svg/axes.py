@@ -13,8 +13,8 @@ from ...interactive.charts import Axis
 from ...interactive.measures import AXES_WIDTH, GRID_WIDTH
 from .fluid import VISIBLE, FluidFrame
 
-MARGIN = 3.0  # pt, around everything
-STROKE, GAP = 3.5, 3.5  # pt: of a tick, from there to its text
+MARGIN = 3.0  # pt, margin around all elements
+STROKE, GAP = 3.5, 3.5  # pt, length of a tick mark, and distance from there to its label
 TITLE_GAP = 4.0  # pt, from the title to the axes
 STILL = "still"  # CSS class of elements that remain when a script draws the lines
 FINE = "fine"  # CSS class of ticks that a narrow figure omits, with its greatest width (px)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from ...interactive.charts import Axis, Backing, Chart, ChartNote, Curve
 from .frame import Frame
 
-POINT = 1.375  # px of a pt: the least text has 11 px
+POINT = 1.375  # px per pt, so the smallest text has 11 px
 VISIBLE = 'overflow="visible"'
 
 

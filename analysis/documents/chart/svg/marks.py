@@ -10,7 +10,7 @@ from ...interactive.charts import Curve, Dots, Marker
 from .frame import Frame
 from .polyline import in_tenths
 
-CROSS_WIDTH = 0.29  # of the size of a cross
+CROSS_WIDTH = 0.29  # line width over the size of a cross
 
 
 def draw_marks(frame: Frame, curve: Curve) -> str:
@@ -53,7 +53,7 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
     """Return discs as round caps of strokes of zero length, in one path."""
     moves = np.diff(positions, axis=0, prepend=0).tolist()
     path = "".join(f"m{in_tenths(move)}h0" for move in moves)
-    # As a style, because the page's style sheet overrides an attribute.
+    # A style, because the page's style sheet overrides attributes.
     style = 'style="stroke-linecap:round"'
     return f'<path d="{path}" stroke="{colour}" stroke-width="{diameter:.3g}" {style}/>' if path else ""
 

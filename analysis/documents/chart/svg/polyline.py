@@ -8,10 +8,10 @@ import numpy as np
 
 from ...interactive.envelope import envelope
 
-SPANS_PER_PIXEL = 1.5  # of an envelope, along the abscissa
+SPANS_PER_PIXEL = 1.5  # spans of an envelope per pixel of the abscissa
 TOLERANCE = 0.07  # px, distance from the line up to which a point may be omitted
 PASSES = 8
-FAR = 1e6  # px, where lines beyond the picture are cut
+FAR = 1e6  # px, distance beyond the picture at which lines are cut
 
 
 def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = None) -> str:

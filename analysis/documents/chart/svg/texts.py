@@ -10,7 +10,7 @@ from ...interactive.charts import ChartNote
 from .fluid import FluidFrame
 
 ANCHORS = {"left": "start", "center": "middle", "right": "end"}
-BEGINS = {"left": 0.0, "center": -0.5, "right": -1.0}  # of its width, from the point of a text to its left end
+BEGINS = {"left": 0.0, "center": -0.5, "right": -1.0}  # distance from a text's point to its left end, over its width
 RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
 
 

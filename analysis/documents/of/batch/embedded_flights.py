@@ -76,7 +76,7 @@ def embedded_flights(batch: CampaignResult) -> EmbeddedFlights | None:
     scene = None
     try:
         scene = _declared_scene(batch)
-    except InputError as error:  # the page is written nevertheless
+    except InputError as error:  # the page is written without a scene
         notes.append(f"The system's scene cannot be read: {error}.")
     usable = names_of_record(batch.provenance)
     plotted = usable[:LINE_LIMIT]

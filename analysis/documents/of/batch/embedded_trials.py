@@ -14,8 +14,8 @@ from ....commands.campaigns import replay_command, replay_of_folder
 from ...common.quantities import display_factor, display_unit, number
 from ...interactive.columns import Coarse
 
-NUMBER_LIMIT = 2_500_000  # in all, of draws and metrics
-EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
+NUMBER_LIMIT = 2_500_000  # largest number of draws and metrics of all trials
+EXACT_LIMIT = 200  # failures of a variant with exact numbers
 
 
 class TrialQuantity(TypedDict):

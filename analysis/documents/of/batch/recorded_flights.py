@@ -12,8 +12,8 @@ from ...common.colours import look
 from ...scene.flights import RecordedFlight
 from ...scene.view import FlightName
 
-FLIGHT_LIMIT = 40  # in a page, of all variants
-ROW_LIMIT = 500  # of a flight
+FLIGHT_LIMIT = 40  # simulations in a page, of all variants together
+ROW_LIMIT = 500  # rows of a simulation
 
 
 def choose_flights(batch: CampaignResult) -> dict[str, list[int]]:

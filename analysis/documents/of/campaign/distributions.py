@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Plot
 
 CUMULATIVE = "cumulative probability (CDF), %"
-DECADES = 2.0  # range of a metric from which its axis is logarithmic
-FEW_INTEGERS = 8.0  # range of integers from which ticks may lie between them
-NORMAL_REACH = 3.5  # deviations on either side of 0 that are shown at least, with a normal distribution
-TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left edge
+DECADES = 2.0  # range of a metric, in decades, from which its axis is logarithmic
+FEW_INTEGERS = 8.0  # range of integers from which ticks need not be integers
+NORMAL_REACH = 3.5  # least deviations shown on either side of 0, with a normal distribution
+TAIL = 0.01  # fraction of values at the left edge of a logarithmic axis
 
 
 def metric_values(batch: CampaignResult, metric: str) -> dict[str, np.ndarray]:
@@ -150,7 +150,7 @@ def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles
 
 
 AXES_HEIGHT, LANE = 0.75, 0.52  # in
-NARROW = 242.0  # pt, for two texts above a lane on a telephone
+NARROW = 242.0  # pt, width for two texts above a lane on a telephone
 CAP = 9.0  # pt, the end of an interval
 RING = marker("o", 11.0, INK, fill="", width=1.2)
 

@@ -10,7 +10,7 @@ from ...cell import Cell, CommandLine, Lines, Phrase, Quantity, Row
 from ...model import Table
 from .verdict_table import JudgedMetric, VerdictRow
 
-FAILURES = 3  # of a variant, the first ones
+FAILURES = 3  # first failures listed for each variant
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from ...model import Node, Note, Table, Text
 from .variants import interval_cell, interval_head, variant_cell
 from .verdict_table import JudgedMetric, VerdictRow, VerdictTable
 
-Anchors = Mapping[tuple[str, int], str]  # by variant and trial
+Anchors = Mapping[tuple[str, int], str]  # anchors by variant and trial
 
 
 def verdict_nodes(table: VerdictTable, styles: Mapping[str, Look], anchors: Anchors) -> list[Node]:

@@ -42,7 +42,7 @@ def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
             ("perilune", first["perilune"]),
         ]),
         *_condition_notes(content),
-        *(Missing(["", note]) for note in compared.notes),  # keeps the small initial letter of a folder's name
+        *(Missing(["", note]) for note in compared.notes),  # preserves a lower-case initial of a folder's name
     ]  # fmt: skip
 
 

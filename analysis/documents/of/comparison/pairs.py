@@ -83,10 +83,10 @@ def _group(comparison: CampaignComparison, name: str, unit: str, rows: list[Pair
 
 RATE_HEADS = (f"A {MINUS} B", "difference, points", "95 % interval", "p", "both", "only A", "only B", "neither")
 METRIC_HEADS = (f"A {MINUS} B", "median", "95 % interval", "p", "A < B, %", "A = B, %", "A > B, %", "trials")
-LEAST_P = 1e-4  # below which a p-value is displayed as less
-DECIMALS = 1  # of fractions of trials, %
+LEAST_P = 1e-4  # smaller p-values are displayed as less than this
+DECIMALS = 1  # decimals of fractions of trials (%)
 Styles = Mapping[str, Look]
-Part = Literal["first", "others"]  # pairs against the reference, and others
+Part = Literal["first", "others"]  # pairs with the reference, and others
 
 
 def rate_pair_table(groups: Sequence[PairGroup[PairedRates]], part: Part, styles: Styles) -> Table:

@@ -21,7 +21,7 @@ from ..campaign.variants import variant_cell
 
 SUFFIXES = ("_over_sigma", RATIO)
 LIMITS = (1, 2, 3)
-DECIMALS = 1  # of shares, %
+DECIMALS = 1  # decimals of shares (%)
 NORMAL = {limit: float(norm.cdf(limit) - norm.cdf(-limit)) for limit in LIMITS}
 
 

@@ -29,14 +29,14 @@ from ...interactive.charts import Area, Axis, Backing, Chart, ChartNote, Curve
 from ...pictures import Diagram
 
 INCH = 72.0  # pt
-COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, between layers and between neighbours
+COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, distances between layers and between neighbours
 RADIUS = 0.13 * INCH  # pt, of a node
 LABEL = (0.95 * INCH, 0.2 * INCH)  # pt, about the size of an edge's label
-LOWEST = 1.5 * INCH  # pt, the height of a drawing
+LOWEST = 1.5 * INCH  # pt, least height of a drawing
 HEAD = 4.5  # pt, of an arrow
 TEXT, SMALL = 9.0, 8.0  # pt
-ROOM = 3.2  # pt, around the name of a source
-POINTS = np.linspace(0.0, 1.0, 17)[1:, np.newaxis]  # along a piece of an edge, of the parameter of Bezier's curve
+ROOM = 3.2  # pt, margin around the name of a source
+POINTS = np.linspace(0.0, 1.0, 17)[1:, np.newaxis]  # values of the parameter of a piece of an edge, a Bezier curve
 WHOLE = (0.0, 0.0, 1.0, 1.0)  # box of axes as large as the picture
 CENTRED, BELOW = ("center", "center"), ("center", "top")
 OUTPUT_NAMES = dict(zip(OUTPUT_NUMBERS, ("u1", "u2"), strict=True))
@@ -119,7 +119,7 @@ def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: l
             to_edges = np.abs((others - point) * sizes).max(axis=1).min()
             return float(min(to_labels, 1.0) + 0.5 * min(to_edges, 1.0))
 
-        positions[edge] = tuple(max(candidates, key=room).tolist())  # the first of the best
+        positions[edge] = tuple(max(candidates, key=room).tolist())  # the first of equally good candidates
     return positions
 
 

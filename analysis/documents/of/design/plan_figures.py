@@ -23,14 +23,14 @@ from ...interactive import charts
 from ...interactive.charts import NO_BOX, Axis, Chart, ChartNote
 from ...pictures import Figure
 
-POINTS = 72.0  # in an inch
+POINTS = 72.0  # points per inch
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
-LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
-LOW = 3.8  # in, of one to two
+LOWEST, HIGHEST = 3.0, 6.5  # in, least and largest height of a path with equal scales
+LOW = 3.8  # in, height of a path with different scales
 ARROWS = 14  # along a path
 ARROW = 0.8  # in, at full throttle
 MARK = 6.0  # pt
-MARGINS = (0.14, 0.08)  # of the ranges of a path, at the ends of the axes
+MARGINS = (0.14, 0.08)  # margins at the ends of the axes, over the ranges of a path
 
 
 class Series(NamedTuple):
@@ -148,7 +148,7 @@ def bound_figure(study: LandingStudy, series: Sequence[Series]) -> list[Figure]:
     path, radius = study.bound, study.landing.radius
     x, y = path.position[:, 0], path.position[:, 1] + radius
     central = np.arctan2(x, y)
-    pitch = path.pitch + (central[1:] + central[:-1]) / 2.0  # from the local horizontal
+    pitch = path.pitch + (central[1:] + central[:-1]) / 2.0  # relative to the local horizontal
     rows = np.stack([radius * central, np.hypot(x, y) - radius, np.append(pitch, pitch[-1])])
     chart = path_chart(series, [rows], ("range from the site", "altitude"), "different scales", 7)
     return [Figure("Path", "path", _path_words(series), chart, LOW, is_wide=True)]

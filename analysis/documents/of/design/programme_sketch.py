@@ -21,8 +21,8 @@ from ...pictures import Figure
 
 HEIGHT = 3.4  # in
 HEAD = 5.0  # pt, of an arrow
-SAMPLES = 400  # of the tilt
-LANE = 0.16  # of the range of the tilt, from a dimension to the next one above it
+SAMPLES = 400  # samples of the tilt
+LANE = 0.16  # distance of a dimension line from the next, over the range of the tilt
 DOTS, DASHES = (1.0, 2.0), (5.0, 3.0)
 
 

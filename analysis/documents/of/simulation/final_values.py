@@ -14,7 +14,7 @@ from ...common.quantities import display_unit
 from ...common.signals import axes_of, distinct, signal_groups
 from ...model import Missing, Node, Table
 
-MOST_KEYS = 12  # final values listed where no signal has a known name
+MOST_KEYS = 12  # largest number of final values listed if no signal has a known name
 KEY_VECTORS = ("position", "velocity")
 
 

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a separate figure
-MOST = 12  # panels that are unfolded where no signal has the name of a state or command
-SPIKE = 8.0  # ratio of the range to that of the middle 98 % of values from which it is clipped
+MOST = 12  # number of unfolded panels if no signal has the name of a state or command
+SPIKE = 8.0  # ratio of the full range to the range of the middle 98 % of values from which the axis is clipped
 
 
 @dataclass(frozen=True)

@@ -14,11 +14,11 @@ from ...font.text import text_width
 from ...interactive.charts import Chart, ChartNote
 from ...interactive.measures import TICK_SIZE
 
-INTERVALS = 8  # between marks, at most
-LAST = 0.6  # of an interval before the end, from which on no time is marked
+INTERVALS = 8  # largest number of intervals between marks
+LAST = 0.6  # fraction of an interval before the end without marks
 RADIUS = 3.5  # pt, of marks, which labels must not cover
-APART = 12.0  # pt, between marks that have labels, at least
-CAPITAL = 0.73  # of the size of a text, the height of digits
+APART = 12.0  # pt, least distance between marks with labels
+CAPITAL = 0.73  # height of digits over the font size
 
 
 class Extent(NamedTuple):

@@ -20,11 +20,11 @@ from ...common.panels import choose_length_unit
 from ...interactive.charts import NO_BOX, Chart, Curve
 from .times_on_path import mark_rows, time_notes
 
-MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal
-X_MARGIN, Y_MARGIN = 0.1, 0.12  # of the ranges, beyond their ends
-X_INTERVALS, Y_INTERVALS = 5, 6  # between ticks, at most
+MAXIMUM_RATIO = 4.0  # largest ratio of the ranges of both axes with equal scales
+X_MARGIN, Y_MARGIN = 0.1, 0.12  # margins beyond the ends, over the ranges
+X_INTERVALS, Y_INTERVALS = 5, 6  # largest numbers of intervals between ticks
 WHITE = "#ffffff"
-GROUND = 0.05  # of the height: depth of the grey ground
+GROUND = 0.05  # depth of the grey ground over the height
 
 
 class View(NamedTuple):

@@ -28,9 +28,9 @@ from .charts.poles import are_crowded, cloud_chart, intervals, pole_chart, poles
 from .charts.sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
 from .shared import ByPart
 
-HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
-SIGHT_HEIGHT = 3.5  # in; of the first figures, two side by side
-LOW = 2.4  # in; of histograms, sensitivities and joint margins
+HEIGHT = 3.0  # in; two axes above each other, and squares, need more height than panels of other pages
+SIGHT_HEIGHT = 3.5  # in, height of the first figures, two side by side
+LOW = 2.4  # in, height of histograms, sensitivities and joint margins
 SIGHT = "sight"  # key of the first figures
 
 

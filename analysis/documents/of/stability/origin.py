@@ -12,7 +12,7 @@ from .margins import SCOPES
 from .words import fold_long, limit, numbers, numeral
 
 TIMES = ("step", "start_time", "stop_time")  # s
-ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # of the provenance
+ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # provenance in other tables
 
 
 def origin_nodes(report: StabilityStudy) -> list[Node]:

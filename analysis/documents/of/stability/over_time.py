@@ -29,9 +29,9 @@ from .shared import combine_loop_names
 from .words import numeral
 
 QUANTITIES = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS)
-SAME = 1e-3  # relative: margins that differ by less are one line
-SIZE, LARGE = 4.5, 7.0  # pt, of marks, and of those at the edges
-BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
+SAME = 1e-3  # relative difference up to which margins share a line
+SIZE, LARGE = 4.5, 7.0  # pt, sizes of marks in the figure and at its edges
+BEYOND = 1.15  # end of an axis over the largest decisive margin
 
 
 @dataclass(frozen=True)

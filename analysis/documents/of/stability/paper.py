@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 from ...pictures import Figure
 from .shared import SharedFigures
 
-FEW = 3  # loops with separate figures up to which everything is printed
-MOST = 40  # figures of the others
-TIERS = (  # the first figures, the sensitivities next to the tables, then the figures in a row
+FEW = 3  # largest number of loops with separate figures for which everything is printed
+MOST = 40  # largest number of printed figures for more loops
+TIERS = (  # kinds of figures by importance: first figures, sensitivities next to tables, figures in a row
     ("Bode", "Nichols"),
     ("Sensitivities",),
     ("Nyquist", "Poles", "Poles near z = 1", "Step response"),
 )
-FIRST = "Bode"  # which every loop has
+FIRST = "Bode"  # kind of figure that every loop has
 
 
 @dataclass(frozen=True)

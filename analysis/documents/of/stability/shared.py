@@ -19,8 +19,12 @@ from ...interactive.charts import Axis, Chart
 from ...pictures import Figure
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
-COORDINATES = ("at", "ends", "ticks")  # fields with coordinates; of x and y only the number of points is compared
-ByPart = dict[str, list[Figure]]  # by the part of a loop's section
+COORDINATES = (
+    "at",
+    "ends",
+    "ticks",
+)  # fields that are not compared; of x and y only the shape is
+ByPart = dict[str, list[Figure]]  # figures by part of a loop's section
 
 
 @dataclass(frozen=True)

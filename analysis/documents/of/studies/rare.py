@@ -14,7 +14,7 @@ from ...pictures import Figures
 from .conditions import UNWRITTEN, closing_sections, condition_nodes, condition_of
 from .rare_figures import DESIGN_LEGEND, PERCENT, design_figures, exceedance_figures, interval_figures, limit_figures
 
-DECIMALS = 3  # of acceptance rates
+DECIMALS = 3  # decimals of acceptance rates
 
 
 def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:

@@ -26,9 +26,9 @@ from ...pictures import Figure
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
 DASHED, DOTTED = (4.0, 2.0), (1.0, 2.0)  # line widths
-CUT = 0.002  # fraction of the limit-state values, the smallest, that may be below the axis
-PAIRED = 3  # parameters; each pair has a panel
-BEHIND = Backing("#ffffff", 0.8, 0.8)  # of words over a line
+CUT = 0.002  # fraction of limit-state values that may be below the axis
+PAIRED = 3  # number of parameters of which each pair has a panel
+BEHIND = Backing("#ffffff", 0.8, 0.8)  # backing of words over a line
 PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
@@ -114,7 +114,7 @@ def exceedance_chart(study: RareOutcome) -> Chart:
     low, high = study.interval
     if study.probability is not None:
         thresholds, reached = [*thresholds, 0.0], [*reached, study.probability]
-    before, down = np.append(x[:1], x), np.append(y, y[-1:])  # a sample's probability holds down to the sample before
+    before, down = np.append(x[:1], x), np.append(y, y[-1:])  # a probability applies down to the previous sample
     empirical = line(before, down, GREY, width=1.4, steps=True, name="level 1: Monte Carlo")
     levels = line(np.array(thresholds), np.array(reached), BLUE, name="thresholds of levels")
     if low > 0.0:

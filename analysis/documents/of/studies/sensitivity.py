@@ -17,8 +17,8 @@ from .conditions import closing_sections, condition_nodes, condition_of
 from .sensitivity_figures import MOST, bars_of, index_figures
 
 WIDE = 0.3  # width of a total index's interval from which a larger base is recommended
-OPEN = 3  # tables of metrics, which a page does not fold
-DECIMALS = 3  # of indices and correlations
+OPEN = 3  # largest number of tables that a page does not fold
+DECIMALS = 3  # decimals of indices and correlations
 PERCENT = f"{100 * CONFIDENCE:g} %"
 
 

@@ -21,7 +21,7 @@ from ...pictures import Figure
 
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in
-BAR, OFFSET = 0.34, 0.19  # of a lane: the height of a bar, its middle above or below that of the lane
+BAR, OFFSET = 0.34, 0.19  # over the height of a lane: height of a bar, distance of its middle from the lane's
 CAP = marker("|", 5.0, INK)  # the end of an interval
 ORDERS = (BLUE, SKY)  # total, first order
 

@@ -27,7 +27,7 @@ from .worst_figures import box_figures, random_figures, search_figures
 from .worst_points import box_lanes, objective_of
 
 DIGITS = 6
-DECIMALS = 3  # of fractions of the search box
+DECIMALS = 3  # decimals of fractions of the search box
 
 Simulate = Callable[[], tuple[FlightResult, Sequence[FigureDeclaration]]]
 

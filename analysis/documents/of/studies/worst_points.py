@@ -11,7 +11,7 @@ from ....studies.worst.objective import MOST
 from ....studies.worst.outcome import WorstOutcome
 from ...common.quantities import display_factor, label_with_unit
 
-CUT = 0.02  # fraction of simulations, farthest from the worst, that may be outside the axis
+CUT = 0.02  # fraction of simulations that may be outside the axis, opposite to the worst
 
 
 class ObjectiveValues(NamedTuple):
@@ -70,7 +70,7 @@ def objective_of(study: WorstOutcome) -> ObjectiveValues:
     label = label_with_unit(study.badness.text, study.unit)
     random = int(np.argmax(values[: study.random_trials]))
     failed = ~np.isfinite([study.badness.size(float(value)) for value in values])
-    rising = study.badness.size(-1.0) < 0.0  # of a margin smaller values are worse
+    rising = study.badness.size(-1.0) < 0.0  # smaller values of a margin are worse
     return ObjectiveValues(label, displayed, failed, rising, int(np.argmax(values)), random)
 
 

@@ -19,9 +19,9 @@ from ....pictures import Figure
 from .bands import Bands, expectation
 from .recorded import ALL, FlightQuantity
 
-REACH = 1.0  # widths of the expected band shown on either side of it, at most
+REACH = 1.0  # largest range shown on either side of the expected band, over its width
 HEIGHT = 2.1  # in
-FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overlap
+FAINT_BAND = 0.09  # opacity of 90 % bands in figures of all variants
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ def overlaid_bands(
     medians = [
         line(band.time, rows[label][2], styles[label].colour, dashes=styles[label].lengths, steps=steps)
         for label, band in bands.items()
-    ]  # without names: at the cursor, those of six variants would take six lines; the legend has them
+    ]  # without names, which would take six lines at the cursor for six variants; the legend contains them
     words = f"Medians of {quantity.label} over time, {ALL}"
     chart = frame.chart(medians, areas)
     return [Figure(f"{quantity.label}, {ALL}", name, words, chart, HEIGHT, is_narrow=True)]

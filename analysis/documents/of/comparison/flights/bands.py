@@ -13,10 +13,10 @@ from ...campaign.recorded_names import RATIO
 from .recorded import ComparedFlight, FlightQuantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
-MOST_TIMES = 300  # of a band
+MOST_TIMES = 300  # largest number of times of a band
 FEWEST = 0.25  # fraction of the simulations; bands end when fewer are still running
 SINGLES, FAILURES = 4, 2  # successful and failed flights drawn one by one
-STATES = 6  # of the filter whose normalised error square is monitored: position and velocity
+STATES = 6  # number of states in the filter's normalised squared error: position and velocity
 History = tuple[np.ndarray, np.ndarray]  # times (s) and values
 
 

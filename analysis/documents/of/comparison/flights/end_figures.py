@@ -27,8 +27,8 @@ from .recorded import ALL
 
 TARGET = marker("o", 6.0, INK, fill="#ffffff", width=1.3)
 SIGMAS = (1.0, 2.0, 3.0)
-BULK, UNEVEN = 0.9, 6.0  # of the trials of the least dispersed variant; of their extent, the largest scale
-EDGE, ARROW = 0.9, 10.0  # of the way to the edge, from which on an arrow points out; its length, pt
+BULK, UNEVEN = 0.9, 6.0  # fraction of the least dispersed variant's trials, and the largest scale over their extent
+EDGE, ARROW = 0.9, 10.0  # position of an outward arrow, over the distance to the edge, and its length (pt)
 HEIGHT = 3.1  # in
 
 
@@ -149,7 +149,7 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: st
     for label, each in ends.items():
         good, style = factor * select_ends(each)[0], styles[label]
         x, y = ellipse(good, SIGMAS[-1]) if len(good) > 1 else np.full((2, 1), np.nan)
-        ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
+        ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # one per legend entry, which hides it by index
         if len(good) > 1:
             means.append(_mean(good, style.colour))
     across, title = (f"{axis}, {unit}" for axis in first.axes[:2])

@@ -32,7 +32,7 @@ def missing_statements(
     retained = {
         variable_of(batch.document, name) for batch in comparison.batches.values() for name in batch.document["signals"]
     }
-    moves = not retained or bool(retained & PATH)  # without recorded signals a body may move
+    moves = not retained or bool(retained & PATH)  # without recorded signals it is unknown whether a body moves
     has_mass = any(metric.unit == MASS for metric in comparison.metrics) or any(
         variable_of(contender.stored.document, name) == "mass"
         for contender in comparison.contenders.values()

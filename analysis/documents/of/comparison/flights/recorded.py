@@ -30,8 +30,8 @@ KINDS = {
     **dict.fromkeys(CONSISTENCY, "consistency"),
 }
 ALL = "all variants"
-MOST_FLIGHTS = 300  # read per contender; more would not visibly change the bands
-MOST_ROWS = 500  # kept per simulation
+MOST_FLIGHTS = 300  # simulations read per variant; more would not visibly change the bands
+MOST_ROWS = 500  # rows read per simulation
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from ...campaign.recorded_names import (
 from .ends import target_of
 from .recorded import ComparedFlight
 
-DRAWN = 40  # flights of a figure
+DRAWN = 40  # paths drawn in a figure
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def collect_paths(contender: Contender, flights: Sequence[ComparedFlight]) -> Va
         if heights.size > 1:
             plotted.append((flight.success, np.stack(places), heights, target.values[index]))
     fits = (radius_of(path, heights) for _, path, heights, _ in plotted if height != position[2])
-    radius = next((fit for fit in fits if fit is not None), None)  # of all flights: they are drawn in one figure
+    radius = next((fit for fit in fits if fit is not None), None)  # common to all flights in a figure
     paths = []
     for success, path, heights, aim in plotted:
         along = _along(path[:2], aim[:2]) if radius is None else downrange(path, radius, aim)

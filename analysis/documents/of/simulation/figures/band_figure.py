@@ -20,9 +20,9 @@ from ....model import Group
 from .section import displayed, figure_group, history_figure, legend_of, time_chart
 from .words import join, seconds, sentence, value_range
 
-SETTLED = "settled"  # a band's name that a settling time needs not repeat
-ZOOM = 3.0  # widths of the band that the zoom shows
-DECADES = 100.0  # ratio of an abscissa's ends from which on it is logarithmic
+SETTLED = "settled"  # name of a band that a settling time does not repeat
+ZOOM = 3.0  # range of the zoom over the width of the band
+DECADES = 100.0  # ratio of an abscissa's ends from which it is logarithmic
 MOST_DECADES = 6  # ticks of a logarithmic abscissa
 WIDE = 4.0  # range of the signal over the width of the band from which a zoom is plotted
 

@@ -23,8 +23,8 @@ from .section import displayed, figure_group, history_figure, legend_of, select_
 from .words import capital, condition_text, join, seconds, sentence
 
 SIGMAS = (3.0, 1.0)
-MOST_ROWS = 500  # of the shaded areas, which matplotlib does not simplify
-ROUNDING = 1e-12  # of times, which are start + n h
+MOST_ROWS = 500  # rows of shaded areas, which matplotlib does not simplify
+ROUNDING = 1e-12  # rounding of times, which are start + n h
 WIDE = 4.0  # range of the errors over that of the last quarter from which a zoom is plotted
 
 

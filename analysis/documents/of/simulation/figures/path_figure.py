@@ -29,8 +29,8 @@ from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 3.4  # in, with equal scales, half as wide as the page's column
-Y_MARGIN = 0.08  # of the range of the ordinate, beyond its ends
-WIDE_INTERVALS, Y_INTERVALS = 10, 6  # between ticks, at most
+Y_MARGIN = 0.08  # margin beyond the ends of the ordinate, over its range
+WIDE_INTERVALS, Y_INTERVALS = 10, 6  # largest numbers of intervals between ticks
 WHITE = "#ffffff"
 
 

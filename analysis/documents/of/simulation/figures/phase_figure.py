@@ -85,12 +85,12 @@ def statuses_of(phases: PhasesFigure, flight: Flight) -> list[tuple[int, float]]
 
 
 LANE = 0.27  # in
-BAR = 0.62  # of a lane
-EDGE = 0.8  # pt, of the ends of bars, so that short ones are visible
+BAR = 0.62  # height of a bar over the height of a lane
+EDGE = 0.8  # pt, width of the ends of bars, which makes short ones visible
 GAP = 4.0  # pt, from a bar to its duration
 LONG = 0.5  # fraction of the flight without an event from which the plot has two windows
-MARGIN = 0.06  # of the remaining time, shown on either side of it
-NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the left of a bar
+MARGIN = 0.06  # margin on either side of an event, over the remaining time
+NEAR_THE_EDGE = 0.88  # position in a window from which durations are on the left of bars
 Window = tuple[float, float]
 
 

@@ -19,8 +19,8 @@ from .section import displayed, figure_group, time_chart
 from .words import join, sentence
 
 HEIGHT = 1.6  # in
-BAR = 1.1  # pt; the duration of a pulse would not be visible
-THIN = 0.6  # pt, the line at 0 and that of the remainder
+BAR = 1.1  # pt, width of a bar, since the duration of a pulse would not be visible
+THIN = 0.6  # pt, width of the line at 0 and of the remainder's line
 
 
 def pulse_lengths(pulses: PulsesFigure, result: FlightResult) -> np.ndarray:

@@ -36,10 +36,10 @@ from .frequency import (
 )
 
 FAR, NEAR = 60.0, 80.0  # dB below and above 1 beyond which a gain is irrelevant to margins
-REACH = 0.07  # of the frequency axis, to either side of a crossover, over which a limit is drawn
-ROOM = 0.085  # of the frequency axis, width of a label
-GAINS = (1.0, 2.0, 4.0, 5.0, 10.0)  # dB, of ticks, times a power of ten
-PHASES = (1.0, 1.5, 3.0, 4.5, 9.0, 10.0)  # deg
+REACH = 0.07  # half-length of a limit's line, over the length of the frequency axis
+ROOM = 0.085  # width of a label over the length of the frequency axis
+GAINS = (1.0, 2.0, 4.0, 5.0, 10.0)  # dB, steps between ticks, times a power of ten
+PHASES = (1.0, 1.5, 3.0, 4.5, 9.0, 10.0)  # deg, steps between ticks, times a power of ten
 
 
 def bode_charts(loop: LoopReport) -> tuple[Chart, Chart]:

@@ -26,15 +26,15 @@ from ....interactive.charts import NO_BOX, Axis, Backing, Chart, Marker
 
 MEASURED = marker("o", 3.0, INK, fill="", width=0.7)
 MARGIN_WIDTH = 1.8  # pt, of the bar of a margin
-MARK, DECISIVE = 4.5, 6.0  # pt, of a crossing and of the nearest, which is filled
+MARK, DECISIVE = 4.5, 6.0  # pt, marks of a crossing and of the nearest one, which is filled
 DOTS = (1.2, 1.6)  # line widths
 REQUIRED = (4.0, 2.0)
 COMPLEMENTARY = (5.0, 1.6)  # T
-FLOOR = 1e-12  # of a gain, for its logarithm
+FLOOR = 1e-12  # least gain, for its logarithm
 WHITE = "#ffffff"
 PEAK = marker("s", MARK, VERMILION)
 FORBIDDEN = "#f6d5c0"  # fill of forbidden regions
-BEHIND = Backing(WHITE, 0.8, 0.8)  # of words over a line
+BEHIND = Backing(WHITE, 0.8, 0.8)  # backing of words over a line
 
 
 def in_db(values: np.ndarray) -> np.ndarray:

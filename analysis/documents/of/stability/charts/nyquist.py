@@ -37,12 +37,12 @@ from .frequency import (
 )
 
 INVERSE = f"{MINUS}1/N"
-SHAPE = 1.2  # width over height of the axes, about
+SHAPE = 1.2  # approximate aspect ratio of the axes
 CRITICAL = marker("+", 9.0, INK, width=1.6)
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
-NEGATIVE = (1.2, 1.2)  # line widths, dashes of negative frequencies
+NEGATIVE = (1.2, 1.2)  # dashes of negative frequencies, in line widths
 ARROW = 7.0  # pt, of the head of an arrow
-ALONG = 0.35  # of the visible length of the curve, where its arrow is
+ALONG = 0.35  # position of the arrow along the visible part of the curve, over its length
 
 
 def nyquist_chart(loop: LoopReport) -> Chart:
@@ -118,8 +118,8 @@ def _direction(value: np.ndarray, left: float, right: float) -> list[Curve]:
     return [arrow((tail.real, tail.imag), cmath.phase(step), ARROW, BLUE, ARROW / BARB)]
 
 
-LOW, HIGH = 20.0, 90.0  # dB up and down that are shown at least and at most
-GAINS = (1.0, 2.0, 5.0, 10.0)  # dB, of ticks, times a power of ten
+LOW, HIGH = 20.0, 90.0  # dB, least and largest range shown up and down
+GAINS = (1.0, 2.0, 5.0, 10.0)  # dB, steps between ticks, times a power of ten
 PHASES = (-360.0, -270.0, -180.0, -90.0, 0.0)  # deg
 
 

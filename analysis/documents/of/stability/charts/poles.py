@@ -17,11 +17,11 @@ from .frequency import WHITE, faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)
 KINDS = {"loop": "x", "not controllable": "v", "not observable": "^", "neither": "s"}
-NEAR = 0.3  # from z = 1; slow loops have their poles there
-MOST = 2500  # points of a cloud; more are thinned to a grid
-SHAPE, LOW_SHAPE = 1.2, 1.6  # width over height of the panels' axes, about
-NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # of half a turn, positions of labels of damping
-CLEAR = 0.15  # from a number to the next pole at least
+NEAR = 0.3  # distance from z = 1 within which slow loops have their poles
+MOST = 2500  # largest number of points of a cloud; larger clouds are thinned to a grid
+SHAPE, LOW_SHAPE = 1.2, 1.6  # approximate aspect ratios of the panels' axes
+NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # positions of labels of damping, in half turns
+CLEAR = 0.15  # least distance from a label to a pole
 SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
 

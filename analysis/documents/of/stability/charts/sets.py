@@ -26,9 +26,9 @@ from ....interactive.charts import NO_BOX, Area, Axis, Chart, Curve
 from .frequency import COMPLEMENTARY, DOTS, PEAK, REQUIRED, WHITE, LimitLines, frequency_axis, in_db
 
 BINS = 24
-DECADES = 20.0  # ratio of the ends of an abscissa from which on it is logarithmic
+DECADES = 20.0  # ratio of the ends of an abscissa from which it is logarithmic
 FLAT = 1.5  # dB or deg, least range of an ordinate, so nearly constant values look constant
-MARGINS = (1.0, 1.5, 2.0, 3.0, 5.0, 10.0)  # dB or deg, of ticks, times a power of ten
+MARGINS = (1.0, 1.5, 2.0, 3.0, 5.0, 10.0)  # dB or deg, steps between ticks, times a power of ten
 DIMMED = 0.75  # opacity of bars
 WORST = marker("^", 7.0, VERMILION)
 
