@@ -1,6 +1,6 @@
 """Limit cycles by harmonic balance: the amplitudes and frequencies at which 1 + N(a) L(jw) = 0.
 
-L is the linear part of the loop (the negated transfer function without the element), for a sampled loop L(e^{jwT}). The
+L is the linear remainder of the loop (the negated transfer function without the element), for a sampled loop L(e^{jwT}). The
 method is valid if L attenuates the harmonics of the element's output, and if the period of a sampled loop's oscillation
 is many samples.
 

@@ -34,7 +34,7 @@ def element_report(
     high: float,
     prepare: Callable[[Layer], PreparedSystem],
 ) -> Nonlinearity:
-    """Report the harmonic balance of an element at a cut with the linear part of the loop, L = ``response``.
+    """Report the harmonic balance of an element at a cut with the linear remainder of the loop, L = ``response``.
 
     ``prepare`` returns the system with the layer of the element, in which its limit cycle is simulated: amplitude and
     period are those of the return signal, integrated if N is a function of the integral. Raises InputError for invalid

@@ -24,7 +24,7 @@ COORDINATES = (
     "ends",
     "ticks",
 )  # fields that are not compared; of x and y only the shape is
-ByPart = dict[str, list[Figure]]  # figures by part of a loop's section
+ByPart = dict[str, list[Figure]]  # figures by section of a loop's article
 
 
 @dataclass(frozen=True)

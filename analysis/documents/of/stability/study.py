@@ -117,7 +117,7 @@ def _requirement_nodes(report: StabilityStudy) -> list[Node]:
 
 
 def _order_notes(report: StabilityStudy) -> list[str]:
-    if report.orders is None:  # FMUs that are not part of a loop
+    if report.orders is None:  # FMUs that are outside all loops
         return [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
     return [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
 

@@ -42,7 +42,7 @@ CRITICAL = marker("+", 9.0, INK, width=1.6)
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
 NEGATIVE = (1.2, 1.2)  # dashes of negative frequencies, in line widths
 ARROW = 7.0  # pt, of the head of an arrow
-ALONG = 0.35  # position of the arrow along the visible part of the curve, over its length
+ALONG = 0.35  # position of the arrow along the visible stretch of the curve, over its length
 
 
 def nyquist_chart(loop: LoopReport) -> Chart:
