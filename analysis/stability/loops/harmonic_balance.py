@@ -1,8 +1,8 @@
 """Limit cycles by harmonic balance: the amplitudes and frequencies at which 1 + N(a) L(jw) = 0.
 
-L is the linear remainder of the loop (the negated transfer function without the element), for a sampled loop L(e^{jwT}). The
-method is valid if L attenuates the harmonics of the element's output, and if the period of a sampled loop's oscillation
-is many samples.
+L is the linear remainder of the loop (the negated transfer function without the element), for a sampled loop
+L(e^{jwT}). The method is valid if L attenuates the harmonics of the element's output, and if the period of a sampled
+loop's oscillation is many samples.
 
 Stability has two conditions. First, the pair of poles on the axis must move left when the amplitude grows (Loeb 1956;
 Gelb and Vander Velde 1968, chapter 3): with 1 + N(a) L(s) = 0 along a and s, ds/da = -(N'/N)/(L'(s)/L). Second, no
