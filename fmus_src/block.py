@@ -33,7 +33,7 @@ class Block(DataFiles, HasExternalState):
     must succeed with the declared start values; `step` computes states and outputs at t + h.
 
     An output is ``direct`` if its value at t + h depends on inputs at t + h. A plant has no direct outputs and receives
-    the inputs of t. Variables with a meaning in the life cycle, such as a parameter ``sample_period``, are listed in
+    the inputs at t. Variables with a meaning in the life cycle, such as a parameter ``sample_period``, are listed in
     `roles.ROLES`.
 
     ``class Name(Block, interface=True)`` declares connectors and builds no FMU; ``to_write`` names the methods that its
@@ -91,7 +91,7 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def _check_role(cls, name: str, variable: Variable) -> None:
-        """Reject a variable with a role in the life cycle that is not a single number."""
+        """Reject a variable that has a role in the life cycle but is not a single number."""
         role = LIFE_CYCLE.get(name)
         if role is not None and (variable.size != 1 or variable.record or variable.type_name == "Boolean"):
             problem = f"is no number ({role.declared}: {role.effect})"
@@ -150,12 +150,14 @@ class Block(DataFiles, HasExternalState):
 
 
 def _bundles_of(owner: type) -> dict[str, Connectors]:
-    """Return the bundles that a class itself declares, by name."""
+    """Return the bundles that the class itself declares, by name."""
     return {name: bundle for name, bundle in vars(owner).items() if isinstance(bundle, Connectors)}
 
 
 def _variables_of(owner: type) -> Iterator[tuple[str, Variable]]:
-    """Yield name and variable of each declaration of a class itself, in order; those of bundles in their places."""
+    """Yield the name and variable of each declaration in the body of the class, in order; a bundle yields all its
+    variables.
+    """
     bundles = _bundles_of(owner)
     for name in vars(owner):
         for each in bundles[name].names.values() if name in bundles else [name]:

@@ -35,8 +35,8 @@ B = TypeVar("B", bound=Bundle)
 class Connectors(Generic[B]):
     """Variables of a block for the ports of a bundle.
 
-    ``prefix`` and ``about`` are prepended to the names and descriptions of the ports; ``starts`` are start values that
-    differ from those of the bundle.
+    ``prefix`` and ``about`` are prepended to the names and descriptions of the ports; ``starts`` contains the start
+    values that differ from the bundle's.
     """
 
     def __init__(self, bundle: type[B], *, prefix: str = "", about: str = "", **starts: Any) -> None:
@@ -47,7 +47,7 @@ class Connectors(Generic[B]):
         self.view = _make_view(bundle, self.names)
 
     def declare(self, owner: type, name: str) -> None:
-        """Add the variables to the block class ``owner``, whose attribute ``name`` is this bundle."""
+        """Add the variables to the block class ``owner``, in which this bundle is the attribute ``name``."""
         where = f"{owner.__name__}.{name}"
         for unknown in self.starts.keys() - self.names.keys():
             raise DeclarationError(f"{where}: {self.bundle.__name__} has no {unknown}; it has {', '.join(self.names)}")
@@ -83,7 +83,7 @@ class Inputs(Connectors[B]):
 
 
 class Outputs(Connectors[B]):
-    """Outputs of a block for the ports of a bundle; ``direct`` as for an `Output`."""
+    """Outputs of a block for the ports of a bundle; ``direct`` has the same meaning as for an `Output`."""
 
     def __init__(self, bundle: type[B], *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
         super().__init__(bundle, **declaration)
@@ -104,7 +104,7 @@ class _View:
 
 
 def _make_view(bundle: type[Bundle], names: dict[str, str]) -> type[_View]:
-    """Return a class of views whose properties are the block's variables."""
+    """Return a class of views with one property for each of the block's variables."""
     members: dict[str, Any] = {member: _make_property(name) for member, name in names.items()}
     return type(bundle.__name__, (_View,), {"__slots__": (), "bundle": bundle, **members})
 

@@ -33,14 +33,14 @@ def blocks_of(module: ModuleType) -> list[type[Block]]:
 
 
 def is_shipped(block_class: type[Block]) -> bool:
-    """Return True if a block belongs to Perilune, False if it is a user's."""
+    """Return True if the block belongs to Perilune, False if a user wrote it."""
     return block_class.__module__.startswith(f"{__package__}.")
 
 
 def catalogue() -> dict[str, type[Block]]:
     """Return every block of the repository by FMU name, in order of kind and file.
 
-    Raises ValueError when two blocks have one FMU name.
+    Raises ValueError if two blocks have the same FMU name.
     """
     return dict(_catalogue())
 
@@ -99,7 +99,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
 
 
 def _check_names(path: Path) -> None:
-    """Reject two classes of the same name, of which Python would silently keep the last."""
+    """Reject a file with two classes of the same name, of which Python would silently keep only the last."""
     try:
         tree = ast.parse(path.read_bytes())
     except (SyntaxError, ValueError):

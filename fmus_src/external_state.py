@@ -1,6 +1,6 @@
-"""Library objects with state and data files of Python-only blocks.
+"""Library objects with internal state, and data files, of Python-only blocks.
 
-Files are declared by name, packed into the FMU and found by the same path in Python and in the FMU.
+Data files are declared by name and packed into the FMU; a block finds them by the same call in Python and in the FMU.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def _is_external(attribute: object) -> bool:
 
 
 class DataFiles:
-    """Mixin of blocks with ``data``: the path of each file, both in Python and inside an FMU."""
+    """Mixin for blocks that declare ``data``; returns the path of each file, both in Python and inside an FMU."""
 
     data: ClassVar[tuple[str, ...]] = ()
     fmu_resources: str | None = None  # the folder of the FMU that the instance runs in, set by the FMU
@@ -82,7 +82,7 @@ class DataFiles:
 
 
 def data_problem(names: object, python_only: bool) -> str | None:
-    """Return the problem of a declaration of data files and its remedy, or None if it is valid."""
+    """Return the problem with a declaration of data files and its remedy, or None if the declaration is valid."""
     if not isinstance(names, tuple) or not all(isinstance(name, str) for name in names):
         return f"data is {names!r}; write a tuple of file names, data = ('net.npz',)"
     for name in names:

@@ -43,8 +43,8 @@ def is_own(digest: str) -> bool:
 
 
 def has_foreign(path: Path) -> bool:
-    """Return True if a file, or a folder with its subfolders, contains FMUs that Perilune has not built; False if
-    unreadable.
+    """Return True if a file, or a folder with its subfolders, contains FMUs that Perilune has not built; False if it
+    cannot be read.
     """
     try:
         if names_fmu(path):
@@ -60,7 +60,7 @@ def has_foreign(path: Path) -> bool:
 
 
 def note_own(path: Path) -> None:
-    """Add a newly built FMU to the list of this machine or, if that cannot be written, to the list of this process."""
+    """Add a newly built FMU to the list of this machine or, if the list cannot be written, to this process's list."""
     digest = digest_of(path)
     if is_own(digest):
         return
@@ -83,7 +83,7 @@ def list_own(folder: Path, paths: Iterable[Path]) -> None:
 
 
 def _line(digest: str, path: Path) -> bytes:
-    """Return a line of a list in the format of sha256sum, with the file name as bytes in any encoding."""
+    """Return a line of a list in the format of sha256sum, with the file name in the bytes of the file system."""
     return f"{digest}  ".encode() + os.fsencode(path.name) + b"\n"
 
 

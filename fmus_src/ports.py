@@ -10,7 +10,7 @@ from .variables import Input, Output, Parameter, State
 class Port:
     """Start, unit, frame, bounds and description of a quantity, from which blocks declare their variables.
 
-    A variable may change start, description and bounds, but not quantity and unit.
+    A variable may differ from its port in start, description and bounds, but not in quantity and unit.
     """
 
     def __init__(self, start: Any, **declaration: Any) -> None:

@@ -1,6 +1,6 @@
 """Variables with a meaning fixed by their names, in the life cycle of an FMU, a simulation, a campaign or a study.
 
-A block declares them like any other variable; an FMU has them under the same names.
+A block declares them like any other variable; its FMU contains them under the same names.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ FROZEN = "frozen_"  # prefix of an output's name
 
 @dataclass(frozen=True)
 class Role:
-    """Declaration that a name requires of its variable, and the effect of the variable.
+    """Reserved name of a variable, with the declaration that it requires and the variable's effect.
 
-    ``is_in_life_cycle``: used by the life cycle of every FMU, so the variable must be a single number.
+    ``is_in_life_cycle`` is True if the life cycle of every FMU uses the variable, which must then be a single number.
     """
 
     name: str

@@ -27,11 +27,11 @@ Access = tuple[str, int, int, int]  # variable, element or one of the above, fir
 
 
 class StepError(ValueError):
-    """Error of a communication step that the block cannot perform; the message gives the reason."""
+    """Error raised for a communication step that the block cannot perform; the message gives the reason."""
 
 
 class StateError(ValueError):
-    """Error of a block whose state cannot be saved; the message gives the reason."""
+    """Error raised if the state of a block cannot be saved; the message gives the reason."""
 
 
 def integration_step(block_class: type[Block]) -> str | None:
@@ -40,12 +40,12 @@ def integration_step(block_class: type[Block]) -> str | None:
 
 
 class BlockInstance:
-    """Instance of a block, with the interface that an FMI importer has to an FMU.
+    """Instance of a block, with the interface of an FMU towards its importer.
 
     Value references number the elements of all variables in order of declaration. If a variable is set during
     initialisation, the next `settle` restores states and outputs to their declared starts, checks parameters and
     inputs, and runs `Block.initialize`. Between steps, inputs and parameters that are ``tunable``
-    (`export.judge.tunable`) can be set; they take effect in the next step, and outputs do not change before.
+    (`export.judge.tunable`) can be set; they take effect in the next step, and outputs do not change earlier.
 
     Raises the errors of the block's arithmetic (ZeroDivisionError, ValueError, OverflowError); `StepError` if a
     communication step contains too many samples or integration steps; `StartError` if a parameter is outside its
@@ -80,8 +80,8 @@ class BlockInstance:
         self.tuned: dict[tuple[int, ...], list[int]] = {}  # tunable parameters among references, by place in the list
 
     def accesses(self, references: list[int]) -> list[Access]:
-        """Return the variables that value references refer to, in order; a variable with all its elements appears
-        once.
+        """Return the variables that value references refer to, in order; consecutive references to all elements of a
+        variable give one entry.
         """
         key = tuple(references)
         accesses = self.known.get(key)
@@ -223,7 +223,7 @@ class BlockInstance:
         self.initialising = False
 
     def check_point(self, t: float, h: float, here: float) -> None:
-        """Reject a step that does not begin at the current time ``here`` (s) but at t (s)."""
+        """Reject a step that begins at t (s) although the current time is ``here`` (s)."""
         if abs(t - here) > POINT_TOLERANCE * h + TIME_TOLERANCE * abs(here):
             raise StepError(
                 f"the step begins at {t!r} s, and the FMU is at {here!r} s; "
@@ -231,7 +231,7 @@ class BlockInstance:
             )
 
     def check_end(self, t: float, h: float, stop: float) -> None:
-        """Reject a step from t (s) over h (s) beyond the stop time (s; infinite if the importer has not set one)."""
+        """Reject a step from t over h (s) beyond the stop time (s; infinite if the importer has not set one)."""
         end = t + h
         if end > stop and end > stop + POINT_TOLERANCE * h + TIME_TOLERANCE * abs(end):
             raise StepError(f"the step ends at {end!r} s, after the stop time of {stop!r} s")
@@ -239,8 +239,8 @@ class BlockInstance:
     def do_step(self, t: float, h: float) -> None:
         """Advance from t to t + h (s); a sampled block steps at each of its sample instants in that interval only.
 
-        With one instant, the block steps over the importer's step; with several, it steps from instant to instant, as
-        if the importer stepped by the sample period and held its inputs.
+        If the interval contains one instant, the block's step has the length of the importer's; if it contains several,
+        the block steps from instant to instant, as if the importer stepped by the sample period with constant inputs.
         """
         period = self.block.sample_period if self.sampled else 0.0
         if not period > 0.0:

@@ -15,11 +15,13 @@ LARGEST = sys.float_info.max  # in place of a bound that is not declared: neithe
 
 
 class StartError(ValueError):
-    """Error of a value with which a block cannot start; the message names variable, value and bound."""
+    """Error raised for a value with which a block cannot start; the message names variable, value and bound."""
 
 
 class TuningError(ValueError):
-    """Error of a variable that cannot be set between steps, or not to this value; the message gives the reason."""
+    """Error raised for a variable that cannot be set between steps, or not to the requested value; the message gives
+    the reason.
+    """
 
 
 def start_range(variable: Variable) -> tuple[float, float]:
@@ -29,7 +31,7 @@ def start_range(variable: Variable) -> tuple[float, float]:
 
 
 def describe_violation(name: str, number: float, low: float, high: float) -> str:
-    """Return the violation of its range by the value of an element, a float or int, as text."""
+    """Return a text that describes how the value of an element, a float or int, violates its range."""
     if not math.isfinite(number):
         return f"{name} = {number!r} is not finite"
     side, bound = ("below its minimum", low) if number < low else ("above its maximum", high)

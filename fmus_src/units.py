@@ -1,6 +1,6 @@
 """Units by name, as FMI 2.0 defines them: exponents of base units, a factor and an offset.
 
-A name consists of symbols with integer exponents, joined by "." and "/", each "/" for the one symbol after it: m/s2,
+A name consists of symbols with integer exponents, joined by "." and "/"; a "/" applies to the next symbol only: m/s2,
 N.m/rad, kg.m2, 1/s. Blocks of this repository use SI units and radians, so all their factors are one.
 
 Source of factors: the International System of Units (BIPM 2019); the international foot, pound and knot.

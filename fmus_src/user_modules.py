@@ -138,7 +138,7 @@ class _Finder(MetaPathFinder):
 
 
 class _Loader(SourceFileLoader):
-    """Loader that compiles a module with relative imports and writes no compiled file into the user's folder."""
+    """Loader that compiles a module with relative imports and writes no bytecode into the user's folder."""
 
     def get_code(self, fullname: str) -> CodeType:
         path = Path(self.path)

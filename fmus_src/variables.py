@@ -28,7 +28,7 @@ CONVERSIONS: dict[type, Callable[[Any], Any]] = {
 
 
 class DeclarationError(TypeError):
-    """Error of an inconsistent declaration; the message names block, variable and remedy."""
+    """Error raised for an inconsistent declaration; the message names block, variable and remedy."""
 
 
 class Variable:
@@ -38,12 +38,12 @@ class Variable:
     a `Matrix` of floats. It may also be an `Enumeration`, which defines the bounds and is listed in the description;
     ``start`` is then its first member or another. ``unit`` is a name known to `fmus_src.units`; ``minimum``,
     ``maximum`` and ``nominal`` apply to each element; ``frame`` names the frame of a vector's components. A list with
-    ``columns`` is a matrix in row order, whose elements are named by row and column; the elements of a `Matrix` are
+    ``columns`` is a matrix in row-major order, with elements named by row and column; the elements of a `Matrix` are
     numbered consecutively.
 
     Two to four Reals form a vector, a value that is assigned as a whole: ``self.velocity = self.velocity + change``.
     More Reals, Integers, Booleans and variables with ``vector=False`` form a list, whose elements are assigned.
-    Assignment to either accepts any sequence of its size, and copies it; a matrix also accepts a sequence of rows.
+    Assignment to a vector or list copies any sequence of the same size; a matrix also accepts a sequence of rows.
     """
 
     causality: ClassVar[str]
@@ -125,7 +125,7 @@ class Variable:
                 raise DeclarationError(f"{where}: {problem}; give a smaller start, or a larger maximum")
 
     def numbers_of_record(self) -> list[tuple[str, Field]]:
-        """Return name and field of each number of a record; empty for other variables."""
+        """Return the name and field of each number of a record; empty for other variables."""
         return [] if self.record is None else flat_fields(self.record)
 
     if TYPE_CHECKING:  # instances hold plain values under the same name
@@ -200,8 +200,8 @@ class Variable:
         return other
 
     def check_start(self, block: Any, values: Any) -> list:
-        """Return the values of any sequence as a list of elements. Raises TypeError if their number or type does not
-        fit.
+        """Return the values of any sequence as a list of elements. Raises TypeError if the number or type of the values
+        does not fit.
         """
         where = f"{block.fmu_name}.{self.name}"
         try:
@@ -217,7 +217,7 @@ class Variable:
 
 
 class _StoresVector(Variable):
-    """Variable whose assignment stores a vector; reads use the instance dictionary, as there is no ``__get__``."""
+    """Variable that stores an assigned sequence as a vector; without ``__get__``, reads use the instance dictionary."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         if value.__class__ is not VECTORS[self.size]:
@@ -226,7 +226,7 @@ class _StoresVector(Variable):
 
 
 class _StoresRecord(Variable):
-    """Variable whose assignment stores a record."""
+    """Variable that stores an assigned value as a record."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         if value.__class__ is not self.record:
@@ -256,7 +256,7 @@ class _StoresList(Variable):
 
 @cache
 def _that_stores(kind: Any, how: Any) -> Any:
-    """Return a subclass of a kind of variable (Input, Output, ...) with a way of storing."""
+    """Return a subclass of a kind of variable (Input, Output, ...) that stores values as the mixin ``how`` does."""
     return type(kind.__name__, (how, kind), {})
 
 
@@ -283,8 +283,8 @@ class State(Variable):
     """Internal variable kept from step to step; readable by the importer, never set by it.
 
     ``declared`` may be a record class, with start values of fields by name (others 0): a variable ``motion`` declared
-    as ``State(Motion, speed=7620.0)`` has the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on. Their
-    descriptions are those of the fields, preceded by the description of the state if it has one.
+    as ``State(Motion, speed=7620.0)`` has the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on. They
+    have the descriptions of the fields, preceded by the description of the state if it has one.
 
     ``frozen`` states keep their values along the trajectory when a system is linearised: states of random number
     generators, and covariances, whose small changes act on estimates only through innovations.

@@ -1,4 +1,4 @@
-"""Slot of gyro steering: from the demanded torque of the gyro cluster to its gimbal rates."""
+"""Interface of gyro steering laws, which convert the torque demanded of the gyro cluster into gimbal rates."""
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, robot, sampling
@@ -25,9 +25,9 @@ class GyroSteering(Block, interface=True):
         M = -h_g A β'
 
     on the body, without the term ω × H. Rates are held until the next sample while the torque rotates with the gimbals;
-    torque_lead sets the instant at which it is exact, and half a sample_period makes it nearly exact in the mean. Rates
-    beyond gimbal_rate_limit are scaled together. A steering defines `steer`, which sets gimbal_rates and status from
-    the commanded rate of the momentum.
+    torque_lead sets the instant at which the torque is exact; with half a sample_period its mean over the sample is
+    nearly exact. Rates beyond gimbal_rate_limit are scaled together. A steering law defines `steer`, which sets
+    gimbal_rates and status from the commanded rate of change of the momentum.
 
     Frame: body.
 
@@ -104,7 +104,7 @@ class GyroSteering(Block, interface=True):
             self.gimbal_rates = vector(0.0, 0.0, 0.0, 0.0)
 
     def turn(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        """Set gimbal rates within their limit for these gimbal angles (rad)."""
+        """Set the status and the limited gimbal rates for gimbal ``angles`` (rad)."""
         self.status = GyroSteeringStatus.GOOD
         self.steer(angles, momentum_rate, time)
         self.limit()

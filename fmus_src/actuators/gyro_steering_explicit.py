@@ -13,9 +13,9 @@ class GyroSteeringExplicit(GyroSteering):
         a = sqrt(4 - h_y^2)    b = sqrt(4 - h_z^2)
 
     with cosines C_1 to C_4 of the gimbal angles and the normalised momentum h. The torque at the sample is exact. With
-    the declared rho no momentum below 1.96 of one rotor's is singular under the law. Where a divisor of the law falls
-    below least_divisor (|h| > 1.93), rates are those of the singularity-robust pseudo-inverse: the torque is
-    approximate and the status 1.
+    the declared rho the law is not singular at any momentum below 1.96 h_g, the momentum of one rotor. Where a divisor
+    of the law falls below least_divisor (|h| > 1.93), the singularity-robust pseudo-inverse sets the rates; the torque
+    is then approximate and the status 1.
 
     Source: Somov 2013. See docs/theory/rendezvous.md.
     """

@@ -6,7 +6,7 @@ from .gyro_steering import GyroSteering, GyroSteeringStatus
 
 
 class GyroSteeringRobust(GyroSteering):
-    """Gimbal rates by the singularity-robust pseudo-inverse, of least norm and bounded everywhere.
+    """Gimbal rates by the singularity-robust pseudo-inverse, with least norm and bounded everywhere.
 
         β' = W A^T (A W A^T + k E)^-1 h'
 

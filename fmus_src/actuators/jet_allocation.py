@@ -1,4 +1,4 @@
-"""Slot of jet allocation: from demanded force and torque to the thrusts of eight jets."""
+"""Interface of jet allocations, which convert a demanded force and torque into the thrusts of eight jets."""
 
 from ..block import Block, Output, State
 from ..interfaces.ports import body, inertial, robot, sampling
@@ -9,7 +9,7 @@ from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 
 
 class JetAllocationStatus(Enumeration):
-    """Status of the newest command."""
+    """Status of the latest command."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
@@ -23,9 +23,9 @@ class JetAllocation(Block, interface=True):
 
     A change of command_count signals a new command; the command at the start counts as new. It is allocated immediately
     with the present attitude, and its thrusts are applied after a delay of delay_fraction times translation_period,
-    until the next command's thrusts. Before the first command thrusts are 0. A new command replaces one whose thrusts
-    are not yet applied. The status is that of the newest command; allocated_force and allocated_torque are computed
-    from jet_thrust with the declared jet geometry.
+    until the next command's thrusts. Before the first command thrusts are 0. A new command replaces an earlier one
+    whose thrusts are not yet applied. The status refers to the latest command; allocated_force and allocated_torque are
+    computed from jet_thrust with the declared jet geometry.
 
     An allocation defines `allocate`, which sets new_thrust and status. jet_tilt is the elevation of the nozzles above
     the body's xy plane, jet_azimuth their angle from x in this plane, jet_arm the position of the first jet.
@@ -86,7 +86,7 @@ class JetAllocation(Block, interface=True):
         return finite
 
     def take(self, time: float) -> None:
-        """Allocate the command of ``time`` (s)."""
+        """Allocate the command received at ``time`` (s)."""
         self.counted = self.command_count
         self.waiting = True
         finite = self.read_demand()

@@ -5,12 +5,13 @@ from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationLeastPropellant(JetAllocation):
-    """Thrusts of least sum for the commanded wrench, wherever it is attainable.
+    """Thrusts with the least sum that give the commanded wrench, if it is attainable.
 
         min Σ p    B p = wrench    0 <= p <= maximum_thrust
 
-    The optimum is in closed form. An unattainable wrench is scaled to the largest attainable one of its direction. A
-    force without torque is attainable if |F_i| + |F_j| <= 1.155 N for each two axes, with the declared jets.
+    The optimum is in closed form. An unattainable wrench is scaled down to the largest attainable one in the same
+    direction. With the declared jets a force without torque is attainable if |F_i| + |F_j| <= 1.155 N for every pair of
+    axes.
 
     Derivation: docs/theory/rendezvous.md.
     """

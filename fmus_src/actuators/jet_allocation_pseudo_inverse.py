@@ -5,12 +5,13 @@ from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationPseudoInverse(JetAllocation):
-    """Thrusts by the pseudo-inverse, raised until the least is 0 and scaled to maximum_thrust.
+    """Thrusts by the pseudo-inverse, raised equally until the least is 0 and scaled to maximum_thrust.
 
         p = B^# wrench - min(B^# wrench)
 
-    It is exact if the difference between largest and least element is within maximum_thrust: for a force without torque
-    |F_1| + |F_2| + |F_3| <= 1.154 N with the declared jets. Beyond, the wrench is smaller with the same direction.
+    The wrench is exact if the largest and least elements of B^# wrench differ by at most maximum_thrust: for a force
+    without torque |F_1| + |F_2| + |F_3| <= 1.154 N with the declared jets. Beyond this limit the wrench keeps its
+    direction but is smaller.
 
     Source: Somov, Butyrin, Somov and Somova, with the factor maximum_thrust corrected. See docs/theory/rendezvous.md.
     """

@@ -16,10 +16,10 @@ class JetAllocationQuantised(JetAllocation):
 
         F_i = 2 thrust_quantum c_i n_i
 
-    with integers n_i all even or all odd (0.0577 N n with the declared jets). The nearest attainable neighbour of the
-    commanded force is applied with least propellant; the remainder is added to the next command as an impulse in
-    inertial axes (first-order sigma-delta). A force beyond the attainable is scaled first, and that part is not
-    carried. Torque commands, and forces that the geometry cannot give, are omitted and reported.
+    with integers n_i all even or all odd (0.0577 N n with the declared jets). The attainable lattice point nearest to
+    the commanded force is applied with least propellant; the remainder is added to the next command as an impulse in
+    inertial axes (first-order sigma-delta). A force beyond the attainable ones is first scaled down, and the difference
+    is not carried over. Torque commands, and forces that the geometry cannot give, are omitted and reported.
 
     Derivation: docs/theory/rendezvous.md.
     """

@@ -17,17 +17,17 @@ class PulseStatus(Enumeration):
 
 
 class PulseAllocation(Block):
-    """Pulses about three axes of the commanded angular impulse, with a carried remainder.
+    """Pulses about three axes that give the commanded angular impulse, with a carried remainder.
 
     With the remainder r (s) per axis, torque level M, sample period T and pulse length τ:
 
         r = r + u T/M    τ = min(|r|, T)    r = r - τ sgn(r)
 
     τ is 0 if it would be shorter than shortest_pulse, and r is 0 after τ = T. Otherwise the remainder stays below
-    shortest_pulse; the fired impulse since the start differs from the demand by less than shortest_pulse, and that of
-    any interval by less than twice as much. At a sample without demand r is multiplied by rest_kept. With mean, the
-    demand is output as a torque over the sample period, limited to the level, and no jet fires: for linear studies. A
-    demand that is not finite fires nothing.
+    shortest_pulse; the impulse fired since the start then differs from the demand by less than shortest_pulse at the
+    torque level, and the impulse of any interval by less than twice as much. At a sample without demand r is multiplied
+    by rest_kept. With mean, which serves linear studies, the demand is output as a torque over the sample period,
+    limited to the level, and no jet fires. A demand that is not finite fires nothing.
 
     Frame: body.
 
@@ -89,7 +89,7 @@ class PulseAllocation(Block):
             self.rests[k] = self.rest_kept * self.rests[k]
 
     def within_level(self, k: int) -> float:
-        """Return the demand about axis k, limited to the torque of its jet (N m)."""
+        """Return the demand about axis k, limited to the torque of the axis's jet (N m)."""
         if abs(self.torque_command[k]) > self.jet_torque[k]:
             self.status = PulseStatus.SATURATED
         return clip(self.torque_command[k], -self.jet_torque[k], self.jet_torque[k])

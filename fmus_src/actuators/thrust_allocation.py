@@ -15,16 +15,17 @@ class ThrustAllocation(Allocation):
         thrust_lag F' = (1 + e) clip(m a_c, minimum_thrust, maximum_thrust) - F
 
     with a constant random error e. The lag is exact for a demand held over the step; the output is held by the plant,
-    which adds half a step of delay. With a slew limit the direction turns to the commanded one by at most
-    slew_rate_limit, as a mean over each step and no more than 1.5 rad in one; it starts aligned and at rest. All limits
-    are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the maximum.
+    which adds half a step of delay. With a slew limit the direction turns towards the commanded one at a mean rate of
+    at most slew_rate_limit over each step, and by no more than 1.5 rad in one step; it starts aligned and at rest. All
+    limits are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the maximum.
 
     thrust_lead ends the burn early, to compensate the impulse that a first-order lag leaves after cut-off.
     direction_lead commands the future direction, to compensate a first-order attitude response.
 
-    In a dead band between dead_band_low and dead_band_high of maximum_thrust a demand keeps its previous state; above,
-    it is full thrust, below, as commanded. Apollo's descent engine had 0.57 and 0.63 (Klumpp 1974). Reversed bounds, or
-    a dead band without maximum_thrust, are status 2.
+    A demand between dead_band_low and dead_band_high, as fractions of maximum_thrust, keeps the engine on the side of
+    this dead band on which it was; above the band the engine gives full thrust, below it the commanded thrust. For
+    Apollo's descent engine the fractions were 0.57 and 0.63 (Klumpp 1974). Reversed bounds, or a dead band without
+    maximum_thrust, are status 2.
 
     Assumes thrust through the centre of mass.
 
@@ -125,7 +126,7 @@ class ThrustAllocation(Allocation):
         return self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust
 
     def duration(self) -> float:
-        """Return the burn duration from demand_time on (s)."""
+        """Return the burn duration (s) measured from demand_time."""
         shortened = self.demanded_duration - self.thrust_lead
         if self.thrust_lead > 0.0 and shortened < 0.0:
             shortened = 0.0
@@ -140,7 +141,9 @@ class ThrustAllocation(Allocation):
         self.burn_duration = self.duration() + self.direction_lead
 
     def slew(self, time: float, h: float) -> None:
-        """Follow the demanded direction within the slew limit, from the direction flown over the last h (s)."""
+        """Turn the thrust direction at ``time`` (s) towards the demanded one within the slew limit for a step of h
+        (s).
+        """
         since = time + h - (self.demand_time - self.direction_lead)
         goal = self.demanded_direction + since * self.demanded_direction_rate
         goal = goal / norm(goal)

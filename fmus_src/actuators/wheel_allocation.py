@@ -1,4 +1,4 @@
-"""Slot of wheel allocation: from the demanded torque of four reaction wheels to their motor torques."""
+"""Interface of wheel allocations, which convert the torque demanded of four reaction wheels into motor torques."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, sampling, satellite
@@ -32,9 +32,9 @@ class WheelAllocation(Block, interface=True):
 
         -A u = torque_command    A n = 0    u_null = k_null J_s n n^T ΔΩ
 
-    Null motion uses the motor torque that is left. Torques beyond motor_torque_limit are scaled together. Unavailable
-    wheels get no torque; then there is no null direction. An allocation defines `distribute`, which sets wheel_torques
-    and speed_change.
+    Null motion uses the motor torque that the command leaves. Torques beyond motor_torque_limit are scaled together.
+    Unavailable wheels receive no torque; with one of them unavailable there is no null direction. An allocation defines
+    `distribute`, which sets wheel_torques and speed_change.
 
     Frame: body.
 
@@ -96,8 +96,8 @@ class WheelAllocation(Block, interface=True):
         self.allocate()
 
     def null_torque(self) -> Vector4:
-        """Return the motor torques (N m) of the null motion towards ``speed_change``, within what each motor's limit
-        leaves.
+        """Return the motor torques (N m) of the null motion towards ``speed_change``, within the margins that the
+        command leaves.
         """
         amount = 0.0
         for j in range(WHEELS):

@@ -5,13 +5,13 @@ from .wheel_allocation import WheelAllocation
 
 
 class WheelAllocationMinimax(WheelAllocation):
-    """Motor torques of least maximum magnitude for the commanded torque.
+    """Motor torques with the least maximum magnitude for the commanded torque.
 
         min max |u_i|    -A u = torque_command
 
-    Every torque within the array's envelope is attained, up to half as much again as by the pseudo-inverse along a spin
-    axis of a pyramid. Null motion leads the wheels to the speeds of their momentum with the least maximum; null_speed
-    has no effect.
+    Every torque within the array's envelope is attained; along a spin axis of a pyramid this is up to 1.5 times the
+    limit of the pseudo-inverse. Null motion drives the wheels to the speeds that have the same momentum and the least
+    maximum; null_speed has no effect.
 
     Source: Markley, Reynolds, Liu and Lebsock 2010, "Maximum torque and momentum envelopes for reaction wheel arrays".
     """

@@ -4,12 +4,12 @@ from .wheel_allocation import WheelAllocation
 
 
 class WheelAllocationPseudoInverse(WheelAllocation):
-    """Motor torques by the pseudo-inverse, of least sum of squares.
+    """Motor torques by the pseudo-inverse, with the least sum of squares.
 
         u = -A^T (A A^T)^-1 torque_command
 
-    Null motion leads the wheel speeds to null_speed along the null direction, away from rest, where friction changes
-    sign: in a pyramid without momentum each wheel turns at null_speed, alternately forwards and backwards, the first
+    Null motion drives the wheel speeds to null_speed along the null direction, away from zero speed, where friction
+    changes sign: in a pyramid without momentum the wheels turn at null_speed in alternating directions, the first one
     forwards.
 
     Source: Schaub and Junkins 2018, section 8.

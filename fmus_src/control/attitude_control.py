@@ -1,4 +1,4 @@
-"""Torque demand of the gyros from attitude and angular velocity errors."""
+"""Attitude control by gyros: torque from errors of attitude and angular velocity."""
 
 import math
 
@@ -25,8 +25,8 @@ class AttitudeControl(Block):
 
         M = ω × G + J (C ε_p + (C ω_p) × ω - u) - M_jets    ω = C ω_p + rate_error
 
-    ω and G = J ω + gyro_momentum in the first term are those of the middle of the next sample_period. With feed_forward
-    M_jets is jet_torque + J disturbance, else 0.
+    In the first term ω and G = J ω + gyro_momentum are predicted for the middle of the next sample_period. M_jets is
+    jet_torque + J disturbance with feed_forward, else 0.
 
     law 0: u is attitude_error through a lead compensator, discretised by Tustin's rule at sample_period:
 

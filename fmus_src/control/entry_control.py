@@ -1,4 +1,4 @@
-"""Slot of controllers of an entry capsule: from measured bank and rates to the torque over a sample period."""
+"""Interface of controllers of an entry capsule, which compute the torque over a sample period from bank and rates."""
 
 import math
 
@@ -71,7 +71,7 @@ class EntryControl(Block, interface=True):
         return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:
-        """Return a torque demand (N m), or 0 if it lies within the dead zone of the torque level."""
+        """Return a torque demand (N m), or 0 if it lies within the dead zone, a fraction of the torque level (N m)."""
         if abs(demand) < self.dead_zone * level:
             return 0.0
         return demand

@@ -19,17 +19,17 @@ class MagneticControlStatus(Enumeration):
 
 
 class MagneticControl(Block):
-    """B-dot law for detumbling, and cross-product law for unloading of wheels by magnetic torquers.
+    """B-dot law for detumbling, and cross-product law for unloading wheels, by magnetic torquers.
 
-    With the last two field samples B, T apart, and the wheels' momentum h:
+    With the field samples B and, T earlier, B_last, and the wheels' momentum h:
 
         m = -(k/|B|^2) (B - B_last)/T    detumble
         m = (k_u/|B|^2) (h - h_0) × B    unload
 
     The unloading torque m × B removes the momentum across the field. A dipole beyond dipole_limit is scaled as a whole.
-    It acts for active_fraction of T and is 0 when the next sample is taken. feedforward_torque is -(m × B) while wheels
-    are unloaded. With orbital rate n, inclination i to the magnetic equator and least moment of inertia J_min the best
-    gain is
+    The dipole acts for active_fraction of T and is 0 when the next sample is taken. feedforward_torque is -(m × B)
+    while wheels are unloaded. With orbital rate n, inclination i to the magnetic equator and least moment of inertia
+    J_min the best gain is
 
         k = 2 n (1 + sin i) J_min
 
@@ -84,7 +84,7 @@ class MagneticControl(Block):
         self.command(self.start_time)
 
     def plan(self, field: Vector3) -> Vector3:
-        """Return the unlimited dipole (A m2, body) for a new field sample (T, body)."""
+        """Return the dipole (A m2, body) for a new field sample (T, body), before limiting."""
         square = dot(field, field)
         if self.mode == MagneticMode.DETUMBLE and self.has_field:
             return -(self.detumble_gain / (square * self.field_period)) * (field - self.previous_field)

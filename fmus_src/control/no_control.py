@@ -5,7 +5,7 @@ from .entry_control import EntryControl
 
 
 class NoControl(EntryControl):
-    """Zero torque: the capsule's own stability alone."""
+    """Zero torque, which leaves the capsule to its aerodynamic stability."""
 
     def regulate(self) -> Vector3:
         return vector(0.0, 0.0, 0.0)

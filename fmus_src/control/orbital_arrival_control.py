@@ -12,12 +12,13 @@ WORTHWHILE = 0.3  # of the commanded rate; a smaller change does not warrant a p
 class OrbitalArrivalControl(OrbitalControl):
     """Arrival of all angles at arrival_time with minimum rotation: one pulse to start, a coast, one pulse to stop.
 
-    The commanded rate of an angle e leads it to its band in the remaining time, at least least_time:
+    The commanded rate e_c' of an angle error e brings it to its band in the remaining time, assumed to be at least
+    least_time:
 
         e_c' = -sgn(e) max(|e| - band, 0)/max(arrival_time - t, least_time)
 
-    A torque is commanded where the rate error warrants a pulse. With turn_angle yaw is led to that angle and back from
-    turn_start on, which makes gyro biases observable.
+    A torque is commanded only where the rate error warrants a pulse. From turn_start on, yaw turns to turn_angle (0: no
+    turn) and back, which makes gyro biases observable.
 
     See docs/systems/orbital_attitude.md.
     """
@@ -37,7 +38,9 @@ class OrbitalArrivalControl(OrbitalControl):
         return self.turn_angle - rate * back, -rate
 
     def torque_about(self, k: int, error: float, led: float, rate: float, time: float) -> float:
-        """Return the torque (N m) about axis k from an angle's error (rad), commanded and actual rate (rad/s)."""
+        """Return the torque (N m) about axis k from the error (rad) of an angle, its commanded rate ``led`` and its
+        actual rate (rad/s).
+        """
         left = self.arrival_time - time
         if left < self.least_time:
             left = self.least_time

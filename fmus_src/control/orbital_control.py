@@ -1,4 +1,4 @@
-"""Slot of controllers of the orbital attitude: from the estimate to the torque over a sample period."""
+"""Interface of controllers of the orbital attitude, which compute the torque over a sample period from the estimate."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
@@ -20,8 +20,9 @@ class OrbitalControl(OrbitalBody, interface=True):
     """Torque that turns a body into the orbital frame and holds it there.
 
     At each sample a controller receives angles and rates and sets the torque of the next sample period. All controllers
-    of the slot have the same parameters; inertia and jets are those known on board. Inputs that are not finite give no
-    torque. A controller defines `begin`, which may compute gains, and `regulate`, which sets torque_command.
+    of the slot have the same parameters; inertia and jet torques are the values known on board. Inputs that are not
+    finite give no torque. A controller defines `begin`, which may compute gains, and `regulate`, which sets
+    torque_command.
 
     Frames: orbital; body.
 

@@ -25,16 +25,17 @@ class OrbitalDerivativeControl(OrbitalControl):
         u = u_0 - K (a', ω')    K = K_x (A - B K_x)^-1
         a' = S_1 a + z    z' = S_0 z
 
-    K_x is the gain of the modal law with S_1, S_0, which have minus the poles on their diagonals and a coupling of roll
-    and pitch. a' follows from the estimate, ω' is the mean since the last finite estimate. u_0 balances the products of
-    inertia, which no derivative contains.
+    K_x is the gain of the modal law for the matrices S_1 and S_0, which contain minus the poles on their diagonals and
+    a coupling of roll and pitch. a' is computed from the estimate; ω' is its mean since the last finite estimate. u_0
+    balances the products of inertia, which no derivative contains.
 
     The poles withstand the delay of ω' only if 1 - G_w has eigenvalues of positive real part, where
 
         u = J G_w ω'
 
-    With two unstable modes this needs the coupling. Otherwise the status reports unusable parameters. Torques below a
-    shortest pulse are not in ω': the law is for wheels, or pulses.mean. It is linear in yaw.
+    With two unstable modes this condition requires the coupling. If it is not met, the status reports unusable
+    parameters. ω' contains no torques that are too short for a pulse: the law is for wheels, or pulses.mean. It is
+    linear in yaw.
 
     Assumes a nonsingular A.
 
@@ -62,7 +63,7 @@ class OrbitalDerivativeControl(OrbitalControl):
     )
 
     def decay(self, poles: Matrix) -> Matrix:
-        """Return the matrix S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
+        """Return the matrix S of a level: minus the poles (1/s) on the diagonal, and the coupling of roll and pitch."""
         s = -poles
         s[ROLL, PITCH] = -self.coupling
         s[PITCH, ROLL] = self.coupling
@@ -82,7 +83,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         return trace > 0.0 and determinant > 0.0 and trace * (xy + xz + yz) > determinant
 
     def largest(self, a: Matrix) -> float:
-        """Return the largest element of a 6 x 6 matrix, in magnitude."""
+        """Return the largest magnitude of the elements of a 6 x 6 matrix."""
         size = 0.0
         for i in range(6):
             for j in range(6):

@@ -13,8 +13,8 @@ class OrbitalModalControl(OrbitalControl):
         u = J ((N A_11 - S_0 N - A_21) a + (N + S_0 - A_22) (ω - ω_p))    N = S_1 - A_11
         a' = S_1 a + z    z' = S_0 z
 
-    S_1 and S_0 are diagonal with minus the poles; gains follow from the inertia known on board. The law is linear in
-    yaw.
+    S_1 and S_0 are diagonal matrices of minus the poles; the gains are computed from the inertia known on board. The
+    law is linear in yaw.
 
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """

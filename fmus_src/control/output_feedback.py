@@ -7,13 +7,13 @@ from .entry_control import EntryControl
 
 
 class OutputFeedback(EntryControl):
-    """Output feedback of bank error and roll and yaw rates, with separate pitch damping.
+    """Output feedback of bank error, roll rate and yaw rate, with separate pitch damping.
 
         u = F (e, ω_x - γ_r' c_0, ω_y + γ_r' s_0) + J (c_0, -s_0, 0) γ_r''
 
-    with the sine s_0 and cosine c_0 of trim_attack. F places the poles of bank, sideslip and two rates at one dynamic
-    pressure, or is interpolated in the logarithm of pressure between three. Parameter sets output_feedback_*.ssv of
-    entry_attitude have other gains, computed by `make gains`.
+    with the sine s_0 and cosine c_0 of trim_attack. F places the poles of bank, sideslip and the two rates at one
+    dynamic pressure, or is interpolated between three in the logarithm of pressure. The parameter sets
+    output_feedback_*.ssv of entry_attitude contain other gains, computed by `make gains`.
 
     Source: Lapin, thesis, chapters 2 and 3.2. See docs/systems/entry_attitude.md.
     """
@@ -36,7 +36,7 @@ class OutputFeedback(EntryControl):
     )
 
     def gain_row(self, i: int, fraction: float) -> Vector3:
-        """Return row i of the gains, interpolated by a fraction to that of the next pressure."""
+        """Return row i of the gains, interpolated linearly by ``fraction`` towards the gains of the next pressure."""
         low = self.gains[i, :]
         return low + fraction * (self.gains[i + 2, :] - low)
 

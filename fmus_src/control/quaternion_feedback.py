@@ -1,4 +1,4 @@
-"""Torque demand of reaction wheels from attitude and angular velocity errors."""
+"""Attitude control by reaction wheels: torque from errors of attitude and angular velocity."""
 
 import math
 
@@ -31,9 +31,9 @@ class QuaternionFeedback(Block):
         k = ω_0^2 + 2 ζ ω_0/T    c = 2 ζ ω_0 + 1/T
 
     Without integral_time T, k = ω_0^2 and c = 2 ζ ω_0. The integral acts while 2 |q| is below integral_band.
-    error_limit bounds 2 |q|, and so the rate of a turn without reference to k error_limit/c. feedforward_torque is
-    added. While not active, torque and integral are 0. A command acts ``delay`` samples later and is held until the
-    next. Inputs that are not finite leave the torque unchanged; without an attitude it is 0.
+    error_limit bounds 2 |q|, and thereby limits the rate of a turn without a reference rate to k error_limit/c.
+    feedforward_torque is added. While not active, torque and integral are 0. A command acts ``delay`` samples later and
+    is held until the next. Inputs that are not finite leave the torque unchanged; without an attitude it is 0.
 
     Frame: body.
 

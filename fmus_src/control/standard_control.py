@@ -1,4 +1,4 @@
-"""Control of bank and rates by relays, as usual for capsules."""
+"""Control of bank and rates by relays, as is usual for capsules."""
 
 import math
 
@@ -11,12 +11,12 @@ from .entry_control import EntryControl
 class StandardControl(EntryControl):
     """Relays with hysteresis: bank with its rate about x, damping about y and z.
 
-    A relay closes where its signal exceeds a threshold y and opens within y/2; closed, it demands the full level, so
-    that pulses fill the sample period. The roll signal is
+    A relay closes when its signal exceeds a threshold y and opens when it falls below y/2. A closed relay demands the
+    full torque level, so pulses fill the sample period. The roll signal is
 
         x = clip(γ - γ_target, bank_limit) + lead_time ω_x
 
-    and those of yaw and pitch are their rates.
+    and the yaw and pitch signals are the rates.
 
     Source: Lapin, thesis, chapter 3.2, which states an accuracy of 3 deg; thresholds: this repository.
     """
@@ -43,7 +43,7 @@ class StandardControl(EntryControl):
     )
 
     def relay(self, k: int, x: float) -> float:
-        """Return the torque demand (N m) of relay k for its signal."""
+        """Update relay k for its signal and return its torque demand (N m)."""
         if self.signs[k] * x < 0.5 * self.thresholds[k]:
             self.signs[k] = 0.0
         if abs(x) > self.thresholds[k]:

@@ -11,7 +11,7 @@ from ..units import deg
 
 
 def has_direction(length: float) -> bool:
-    """Return True if a vector of this length has a direction; also for NaN, so that it propagates."""
+    """Return True if a vector of this length has a direction, also for NaN, so that NaN propagates."""
     return length != 0.0 and length != math.inf
 
 
@@ -31,9 +31,9 @@ class ThrustAxisControl(Block):
         α = α_feed + rate_gain (d × d' + n s - ω)
         s = min(angle_gain e, sqrt(2 braking_acceleration e), maximum_rate)
 
-    α is limited to maximum_angular_acceleration (0: no limit). The square root is the rate from which
-    braking_acceleration stops in e; a linear law would limit-cycle at large angles. A direction of length 0 only brings
-    the rate to the feedforward's.
+    α is limited to maximum_angular_acceleration (0: no limit). The square root is the rate that braking_acceleration
+    brings to 0 over the angle e; a linear law would cause a limit cycle at large angles. For a direction of length 0
+    the law only brings the rate to 0, apart from the feedforward.
 
     Frame: landing site.
 
@@ -92,7 +92,7 @@ class ThrustAxisControl(Block):
         return rate
 
     def command_rate(self, time: float) -> Vector3:
-        """Return the angular rate (rad/s) that follows the command and reduces the error at ``time`` (s)."""
+        """Return the angular rate (rad/s) at ``time`` (s) that follows the command and reduces the error."""
         direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         self.direction_error = 0.0

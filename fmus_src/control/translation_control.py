@@ -1,4 +1,4 @@
-"""Force demand of the jets from position and velocity errors."""
+"""Position control by jets: force from errors of position and velocity."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import inertial, landing, robot
@@ -16,7 +16,7 @@ class TranslationControlStatus(Enumeration):
 
 
 class TranslationControl(Block):
-    """Force of the jets: planned acceleration and a correction, once per sample of translation control.
+    """Force of the jets: planned acceleration and a correction, once per translation_period.
 
         P = m (a_p - u)
 
@@ -29,8 +29,9 @@ class TranslationControl(Block):
         u = ω_0^2 position_error + 2 ζ ω_0 velocity_error
 
     Each law has two designs; the one whose design_period is nearest to translation_period is used. When the design
-    changes, the lead's state is set for a continuous output. The force is held until the next sample, which its count
-    signals; the one at the start counts. Inputs that are not finite leave the force unchanged.
+    changes, the state of the lead compensator is set for a continuous output. The force is held until a change of the
+    count signals the next sample; the inputs at the start are the first sample. Inputs that are not finite leave the
+    force unchanged.
 
     Frame: inertial.
 

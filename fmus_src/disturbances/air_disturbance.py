@@ -1,4 +1,4 @@
-"""Wind, and deviation from the density of the standard atmosphere."""
+"""Wind, and deviation of air density from the standard atmosphere."""
 
 import math
 

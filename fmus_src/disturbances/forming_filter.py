@@ -12,15 +12,15 @@ from ..mathlib.vectors import Vector4, vector
 class FormingFilter(Block):
     """Second-order forming filter driven by white noise, discretised exactly.
 
-    With natural_frequency ω_0, damping ζ and two-sided spectral density `intensity` of n:
+    With natural_frequency ω_0, damping ζ and white noise n of two-sided spectral density `intensity`:
 
         y'' + 2 ζ ω_0 y' + ω_0^2 y = ω_0^2 n
         P = diag(v, ω_0^2 v)    v = intensity ω_0/(4 ζ)    Q = P - F P F^T
 
-    It starts in its stationary state with covariance P. A step of any length is exact, from the matrix exponential F
-    and the added covariance Q.
+    The filter starts with a random state of the stationary covariance P. The matrix exponential F and the added
+    covariance Q make a step of any length exact.
 
-    Assumes ω_0 h above about 1e-4, below which Q loses its digits.
+    Assumes ω_0 h above about 1e-4, below which Q loses its significant digits.
 
     Source: G. P. Shibanov 2017 (disturbance, without figures); Bar-Shalom, Li and Kirubarajan 2001, section 4.3.
     """
@@ -47,7 +47,7 @@ class FormingFilter(Block):
         self.disturbance_rate = w * sigma * second
 
     def transition(self, h: float) -> Vector4:
-        """Return exp(A h), 2 x 2 in row order, for the state (y, y')."""
+        """Return the 2 x 2 matrix exp(A h), row-major, for the state (y, y')."""
         w = self.natural_frequency
         decay = self.damping * w
         square = self.damping * self.damping - 1.0

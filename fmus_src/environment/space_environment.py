@@ -23,9 +23,9 @@ class EnvironmentStatus(Enumeration):
 class SpaceEnvironment(SpaceModel):
     """Sun, Moon, magnetic field, eclipse and air density at the present position and time.
 
-    Sensors use it at the true position. With an estimated position and magnetic_degree 6 it serves as an on-board
-    model, whose field differs from that of degree 13 by 221 nT and 0.31 deg (rms at 500 km). The plant does not use it
-    but evaluates its own models.
+    At the true position the block serves sensors. At an estimated position, with magnetic_degree 6, it serves as an
+    on-board model; its field differs from the field of degree 13 by 221 nT and 0.31 deg (rms at 500 km). The plant does
+    not use this block but evaluates its own models.
 
     Frames: inertial (GCRS axes, origin at the body's centre); body.
 

@@ -1,1 +1,1 @@
-"""Evidence of an FMU or a system: reference trajectories, parameters, a page, hashes, in FMI-LS-REF."""
+"""Evidence of an FMU or a system in the format FMI-LS-REF: reference trajectories, parameters, a page and hashes."""

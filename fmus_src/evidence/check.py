@@ -25,7 +25,7 @@ Tolerances = Mapping[str, tuple[float, float]]  # of signals: absolute, relative
 
 
 class CheckError(ValueError):
-    """Error of a check that is incomplete or does not fit its block; the message names file and element."""
+    """Error raised for a check that is incomplete or does not fit its block; the message names file and element."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,9 @@ class Check:
     """Reference trajectory of a block, with tolerances and settings.
 
     Each row of ``table`` (CSV) contains a time (s), the outputs at this time, and the inputs from this time to the next
-    row. An output may differ from the reference by ``absolute + relative |reference|`` of its ``tolerances``. ``truth``
-    describes how the reference was computed. Steps are in s; ``parameters`` are set before initialisation.
+    row. An output may differ from the reference by ``absolute + relative |reference|``, with the two ``tolerances`` of
+    the output. ``truth`` describes how the reference was computed. Steps are in s; ``parameters`` are set before
+    initialisation.
     """
 
     table: bytes
@@ -54,14 +55,15 @@ class Check:
 
 
 def elements_of(block_class: type[Block]) -> dict[str, Variable]:
-    """Return the FMI names of all elements of a block's variables, each with the variable that declares it."""
+    """Return the variable that declares each element of a block, by the FMI name of the element."""
     return {name: variable for variable in block_class.variables.values() for name in variable.element_names()}
 
 
 def read_check(block_class: type[Block]) -> Check | None:
-    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to its file; None if there is none.
+    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to the block's file; None without both
+    files.
 
-    Raises CheckError, naming file and element, if one of the two is missing or does not fit the block.
+    Raises CheckError, naming file and element, if only one of them exists or one does not fit the block.
     """
     source = getattr(sys.modules.get(block_class.__module__), "__file__", None)
     if source is None:

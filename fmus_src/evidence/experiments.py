@@ -18,10 +18,10 @@ TOLERANCES = "org.perilune.tolerances"
 
 @dataclass(frozen=True)
 class Experiment:
-    """One simulation (times in s) and its files, with names relative to the file of experiments, or None.
+    """One simulation (times in s) and its files, as names relative to the file of experiments, or None.
 
-    ``tolerances``: signal -> (absolute, relative). A signal without an entry must be equal bit by bit. With None no
-    annotation is written, and the tolerances are left to the user of the experiment.
+    ``tolerances`` maps a signal to (absolute, relative); a signal without an entry must be equal bit by bit. If
+    ``tolerances`` is None, no annotation is written, and the user of the experiment chooses the tolerances.
     """
 
     name: str

@@ -56,7 +56,7 @@ def mime_type(name: str) -> str:
 
 @dataclass(frozen=True)
 class Related:
-    """File of the archive by its ``name`` there, with its role in FMI-LS-REF and its MIME ``type``."""
+    """File of the archive at the path ``name``, with its role in FMI-LS-REF and its MIME ``type``."""
 
     name: str
     role: str
@@ -66,7 +66,9 @@ class Related:
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
-    """Return the files of an archive with the manifest, and with SHA256SUMS of all files in the format of sha256sum."""
+    """Return the files of an archive together with the manifest and SHA256SUMS, a list of all files in the format of
+    sha256sum.
+    """
     sums = "".join(
         f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files) if name not in NOT_LISTED
     )

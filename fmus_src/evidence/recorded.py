@@ -1,4 +1,4 @@
-"""Recorded outputs of a block for its check, with all bits, as its FMU computes them on every processor."""
+"""Recorded outputs of a block for its check, bit for bit as its FMU computes them on every processor."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ def write_table(names: Sequence[str], rows: Iterable[Sequence[str]]) -> bytes:
 
 
 def _sample(variable: Variable, samples: list[float], row: int) -> float | int | bool:
-    """Return an input at a row's time as importers interpolate a continuous input there: 0 * before + 1 * here.
+    """Return an input at a row's time as importers interpolate a continuous input: 0 * before + 1 * here.
 
-    The result equals the sample except for -0.0, and for a sample after one that is not finite.
+    The result equals the sample ``here``, except if that is -0.0 or if ``before`` is not finite.
     """
     if variable.type_name == "Real" and row:
         return 0.0 * samples[row - 1] + 1.0 * samples[row]

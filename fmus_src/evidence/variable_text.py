@@ -8,7 +8,7 @@ SHOWN = 12  # start values of a list, beyond which the first ones are enough
 
 
 def sized_name(variable: Variable) -> str:
-    """Return the name, followed by the number of elements of a vector or the rows and columns of a matrix."""
+    """Return the variable's name, followed by the size of a vector or the rows and columns of a matrix."""
     if variable.columns is not None:
         return f"{variable.name}[{variable.size // variable.columns}, {variable.columns}]"
     return f"{variable.name}[{variable.size}]" if variable.is_array else variable.name
@@ -28,7 +28,7 @@ def bounds_text(variable: Variable) -> str:
 
 
 def start_text(variable: Variable) -> str:
-    """Return the start values in brief: one value if all are equal, the first ones of many."""
+    """Return a short text of the start values: one value if all are equal, the first ones if there are many."""
     numbers = [number_text(number) for number in variable.elements]
     if not variable.is_array:
         return numbers[0]

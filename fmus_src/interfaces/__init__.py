@@ -1,1 +1,3 @@
-"""Ports, and slots that only declare variables; slots with computations are defined next to their blocks."""
+"""Ports, and interfaces that only declare variables; an interface with computations is defined in the folder of its
+blocks.
+"""

@@ -1,4 +1,4 @@
-"""Slot of allocation: from the guidance command to commands of engine and attitude."""
+"""Interface of allocations, which convert the guidance command into commands of engine and attitude."""
 
 from ..block import Block, Input, Output
 from ..kernel.enumerations import Enumeration, member
@@ -16,7 +16,7 @@ class AllocationStatus(Enumeration):
 class Allocation(Block, interface=True):
     """Thrust and thrust direction of a vehicle for a commanded thrust acceleration.
 
-    Frame: landing site. Directions are unit vectors at command_time with their rates.
+    Frame: landing site. Directions are unit vectors at command_time; their rates extrapolate them to later times.
     """
 
     thrust_acceleration = landing.THRUST_ACCELERATION.input("thrust over mass commanded by the guidance")

@@ -1,4 +1,4 @@
-"""Slot of navigation: from measurements to the estimate used by guidance."""
+"""Interface of navigation, which computes the estimate for guidance from measurements."""
 
 from ..block import Block, Input, Output, Parameter
 from .ports import landing, sampling
@@ -8,7 +8,7 @@ class Navigation(Block, interface=True):
     """Estimated position and velocity of a lander.
 
     Measurements come from sensor blocks, each with a count that distinguishes new samples from held ones. The true
-    motion is connected as well: for ideal navigation, for blocks with internal sensors, and for the initial estimate of
+    motion is also connected; it serves ideal navigation, blocks with internal sensors, and the initial estimate of
     filters. All blocks of the slot have the same inputs and parameters, so they are interchangeable.
 
     Frame: landing site (x north, y west, z up).

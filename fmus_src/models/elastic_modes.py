@@ -18,10 +18,12 @@ MODES = 4
 
 
 class ElasticModes(Block, interface=True):
-    """Up to four elastic or slosh modes in hybrid coordinates, displacement η and momentum p of each.
+    """Up to four elastic or slosh modes in hybrid coordinates; the states of each are a displacement η and a momentum
+    p.
 
-    A mode is a linear oscillator of frequency W and damping ratio ζ on a fixed base, driven by the base's motion. With
-    participation L in translation and D in rotation about the undeformed centre of mass, spacecraft mass M and force F:
+    On a fixed base a mode is a linear oscillator of frequency W and damping ratio ζ; the motion of the base drives it.
+    With participation L in translation and D in rotation about the undeformed centre of mass, spacecraft mass M and
+    force F:
 
         M_e = 1 - L^T L/M    η' = M_e^-1 (p - D^T ω)    p' = -L^T F/M - 2 ζ W η' - W^2 η
 
@@ -34,7 +36,7 @@ class ElasticModes(Block, interface=True):
 
         L = m d/sqrt(I_h)    D = (I_s a + m s × d)/sqrt(I_h)
 
-    Assumes rates far below the mode's frequency and small displacements.
+    Assumes angular rates far below the modes' frequencies, and small displacements.
 
     Source: Likins 1970, with momenta in place of velocities; Dodge 2000; Allard, Schaub and Piggott 2018.
     """
@@ -89,8 +91,8 @@ class ElasticModes(Block, interface=True):
         return self.modal_coupling @ self.rotation.T
 
     def largest_frequency(self, mass: float, inverse_inertia: Matrix) -> float:
-        """Return the highest natural frequency (rad/s) of the free body, from its mass (kg) and inverse inertia, 1/(kg
-        m2).
+        """Return the highest natural frequency (rad/s) of the free body, for its mass (kg) and inverse inertia (1/(kg
+        m2)).
 
         Its square is the largest eigenvalue of W (1 - L'L/M - D'I^-1 D)^-1 W; infinite if that matrix is not positive.
         """
@@ -103,7 +105,7 @@ class ElasticModes(Block, interface=True):
         return math.sqrt(largest_eigenvalue(frequencies @ inverse_free @ frequencies))
 
     def displaced_centre(self, displacements: Vector4, mass: float) -> Vector3:
-        """Return the displacement (m, body) of the centre of mass by the deformation."""
+        """Return the displacement (m, body) of the centre of mass due to the deformation."""
         return self.translation @ displacements / mass
 
     def modal_velocities(self, momenta: Vector4, w: Vector3) -> Vector4:
@@ -111,7 +113,9 @@ class ElasticModes(Block, interface=True):
         return self.inverse_modal_mass @ (momenta - self.rotation.T @ w)
 
     def modal_forces(self, displacements: Vector4, velocities: Vector4, acceleration: Vector3) -> Vector4:
-        """Return the time derivatives of the modal momenta for an acceleration (m/s2, body) of the whole by forces."""
+        """Return the time derivatives of the modal momenta for the acceleration (m/s2, body) that external forces give
+        the whole spacecraft.
+        """
         damping = self.mode_damping * self.mode_frequency * velocities
         stiffness = self.mode_frequency * self.mode_frequency * displacements
         return -(self.translation.T @ acceleration) - 2.0 * damping - stiffness

@@ -65,7 +65,7 @@ class ExposedSurfaces(SpaceModel, interface=True):
     lacks_normal = State(False, description="true: a plate with an area has no normal and is ignored")
 
     def start_surfaces(self) -> None:
-        """Set the plates with normalised normals."""
+        """Set the matrix of plates from the parameters, with unit normals."""
         self.surfaces = self.plates
         self.has_surfaces = self.sphere_area > 0.0
         self.lacks_normal = False
@@ -80,7 +80,7 @@ class ExposedSurfaces(SpaceModel, interface=True):
                 self.has_surfaces = True
 
     def surface_load(self, t: float, r: Vector3, v: Vector3, q: Vector4) -> SurfaceLoad:
-        """Return force (N, body) and torque (N m, body) of air drag and solar pressure.
+        """Return the force (N, body) and torque (N m, body) of air drag and solar radiation pressure.
 
         t: simulation time (s); r, v: position (m) and velocity (m/s), inertial; q: attitude, from body to inertial.
         """

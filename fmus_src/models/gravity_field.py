@@ -12,9 +12,9 @@ from .space_model import SpaceModel
 
 
 class GravityField(SpaceModel, interface=True):
-    """Gravity of spherical harmonics of the central body, and tidal acceleration of two other bodies.
+    """Gravity of the central body in spherical harmonics, and tidal acceleration by two other bodies.
 
-    With the third bodies of gravitational parameters μ_b at s_b and the harmonics of degree n and order m:
+    With harmonics of degree n and order m, and third bodies b of gravitational parameters μ_b at positions s_b:
 
         U = (μ/r) Σ_nm (R/r)^n P_nm(sin φ) (C_nm cos(m λ) + S_nm sin(m λ))
         g = ∇U + Σ_b μ_b ((s_b - r)/|s_b - r|^3 - s_b/|s_b|^3)
@@ -57,7 +57,9 @@ class GravityField(SpaceModel, interface=True):
         )
 
     def third_body_gravity(self, r: Vector3) -> Vector3:
-        """Return the acceleration by the third bodies minus that of the central body (m/s2, inertial)."""
+        """Return the tidal acceleration (m/s2, inertial) by the third bodies, which excludes the central body's own
+        acceleration.
+        """
         if not self.third_bodies:
             return vector(0.0, 0.0, 0.0)
         other = MOON_PARAMETER

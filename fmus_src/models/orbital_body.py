@@ -11,7 +11,7 @@ from ..mathlib.vectors import Vector3, vector
 
 
 class OrbitalBody(Block, interface=True):
-    """Rigid body on a circular orbit with jets about its axes, of one torque level in both directions.
+    """Rigid body on a circular orbit, with jets about its axes that have the same torque in both directions.
 
     With angles a = (γ, ψ, θ) of roll, yaw and pitch relative to the orbital frame, absolute angular velocity ω in body
     axes, orbital rate ω_0 and radial direction j in body axes:
@@ -20,13 +20,13 @@ class OrbitalBody(Block, interface=True):
         γ' = ω_x - q tan θ - ω_0 sin ψ/cos θ    ψ' = q/cos θ + ω_0 sin ψ tan θ    θ' = p + ω_0 cos ψ
         q = ω_y cos γ - ω_z sin γ    p = ω_y sin γ + ω_z cos γ
 
-    A pulse is a signed length (s) about one axis: the jet of that sign gives jet_torque for that time from the start of
-    the sample period. A block may extend `derivatives`. Off-diagonal elements of inertia are minus the products of
-    inertia.
+    A pulse about an axis is a signed duration (s): the jet of that sign exerts jet_torque for this time from the start
+    of the sample period. A block may extend `derivatives`. The off-diagonal elements of inertia are the negative
+    products of inertia.
 
     Frames: orbital; body.
 
-    Assumes a circular orbit, constant inertia, and no torques other than those of the gravity gradient and the jets.
+    Assumes a circular orbit, constant inertia, and no torques except the gravity gradient and the jets.
 
     Source: Lapin, thesis, chapter 1.1. See docs/systems/orbital_attitude.md.
     """
@@ -44,7 +44,7 @@ class OrbitalBody(Block, interface=True):
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of the body's inertia matrix, 1/(kg m2)")
 
     def weigh(self) -> bool:
-        """Set inverse_inertia; whether the matrix of inertia has one."""
+        """Set inverse_inertia; return True if the inertia matrix is invertible."""
         self.inverse_inertia, invertible = inverse(self.inertia)
         return invertible
 
@@ -58,11 +58,11 @@ class OrbitalBody(Block, interface=True):
         )
 
     def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:
-        """Return the time derivative of the attitude state in the form for integrators."""
+        """Return the time derivative of the attitude state, with the arguments that an integrator passes."""
         return self.motion(s, torque)
 
     def torque_at(self, pulses: Vector3, time: float) -> Vector3:
-        """Return the torque (N m, body) of the jets at ``time`` (s) after the start of pulses (s)."""
+        """Return the torque (N m, body) of the jets at ``time`` (s) after the start of ``pulses`` (s)."""
         x = 0.0
         y = 0.0
         z = 0.0
@@ -77,10 +77,9 @@ class OrbitalBody(Block, interface=True):
     def fire(
         self, s: AttitudeState, pulses: Vector3, constant_torque: Vector3, h: float, longest: float
     ) -> AttitudeState:
-        """Return the attitude state after h (s) with pulses (s) that start now and a torque constant_torque (N m,
-        body).
+        """Return the attitude state after h (s) under pulses (s) that start now and a constant torque (N m, body).
 
-        The time is divided at each end of a pulse, and the intervals into steps not longer than ``longest`` (s).
+        The time is divided where a pulse ends, and each interval into steps of at most ``longest`` (s).
         """
         time = 0.0
         while time < h:

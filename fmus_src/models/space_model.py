@@ -29,23 +29,23 @@ LOWEST_AIR = 100e3  # m, lowest height of both air density tables
 
 
 class SpaceModel(Block, interface=True):
-    """Orientation of the planet, Sun and Moon, magnetic field, air density and shadow about Earth or Moon.
+    """Orientation of the planet, Sun and Moon, magnetic field, air density and shadow near Earth or Moon.
 
-    Directions of the pole, Sun and Moon are those of one instant, set by `locate`; the planet rotates on from there. A
-    subclass may override `flux_density`, `air_density` and `air_velocity`. The Moon has neither field nor air. With d
-    the days of UT1 since J2000.0 and spherical harmonics V of reference radius a, the Earth's rotation angle and the
-    field are
+    `locate` sets the pole, the Sun and the Moon for one instant; after that only the planet rotates. A subclass may
+    override `flux_density`, `air_density` and `air_velocity`. The Moon has neither field nor air. With UT1 in days d
+    since J2000.0 and the magnetic potential V in spherical harmonics, the Earth's rotation angle and the magnetic field
+    are
 
         θ = 2 π (frac(d) + 0.7790572732640 + 0.00273781191135448 d)    B = -∇V
 
-    In the half-shadow, with the apparent radii a of the Sun and b of the body and their distance c, the visible
-    fraction is
+    In the penumbra, with the apparent radii a of the Sun and b of the body and their distance c, the visible fraction
+    is
 
         ν = 1 - (a^2 α + b^2 β - c y)/(π a^2)    α = atan2(y, x)    β = atan2(y, c - x)
         x = ((c - b) (c + b) + a^2)/(2 c)    y = sqrt((a - x) (a + x))
 
-    The air density is that of Harris and Priester, between its least and largest value by cos^n of half the angle from
-    the bulge 30 deg behind the Sun, times density_factor, or exponential in height.
+    The air density is density_factor times either an exponential in height or the density of Harris and Priester, which
+    varies between a night value and a bulge value with cos^n of half the angle from the bulge, 30 deg behind the Sun.
 
     Frame: inertial (GCRS axes), with positions relative to the body's centre; t is simulation time.
 
@@ -94,7 +94,9 @@ class SpaceModel(Block, interface=True):
         self.field_coefficients = igrf14(self.epoch)
 
     def locate(self, t: float) -> None:
-        """Set the axes of the body's pole, the Sun and the third body for t (s)."""
+        """Set the pole axes of the central body and the positions of the Sun and the third body (m, inertial) for t
+        (s).
+        """
         time = self.epoch + t
         moon = moon_position(time)
         if self.central_body == CelestialBody.EARTH:
@@ -118,7 +120,7 @@ class SpaceModel(Block, interface=True):
         return 2.0 * math.pi * (turns - float(math.floor(turns)))
 
     def radius(self) -> float:
-        """Return the radius (m) of the central body for surface and shadow."""
+        """Return the radius (m) of the central body that defines its surface and its shadow."""
         if self.central_body == CelestialBody.EARTH:
             return EQUATORIAL_RADIUS
         return MOON_SHADOW_RADIUS
@@ -141,7 +143,7 @@ class SpaceModel(Block, interface=True):
         return vector(0.0, 0.0, 0.0)
 
     def air_density(self, t: float, r: Vector3) -> float:
-        """Return the air density (kg/m3) at a position and time."""
+        """Return the air density (kg/m3) at a position (m, inertial) and time (s)."""
         if self.central_body == CelestialBody.EARTH:
             if self.atmosphere == Atmosphere.EXPONENTIAL:
                 return self.density_factor * exponential_density(self.height(r))
@@ -151,13 +153,13 @@ class SpaceModel(Block, interface=True):
         return 0.0
 
     def is_below_air(self, r: Vector3) -> bool:
-        """Return True if a position is below the tables of air density, where the density of 100 km is used."""
+        """Return True if a position is below the tables of air density; the density at 100 km is used there."""
         if self.central_body == CelestialBody.EARTH and self.atmosphere != Atmosphere.VACUUM:
             return self.height(r) < LOWEST_AIR
         return False
 
     def air_velocity(self, r: Vector3) -> Vector3:
-        """Return the velocity of the air (m/s, inertial), which rotates with the planet."""
+        """Return the velocity (m/s, inertial) of the air, which rotates with the planet."""
         return self.pole_axes.rate * cross(self.pole_axes.pole, r)
 
     def light(self, r: Vector3) -> float:

@@ -16,8 +16,8 @@ class SpinningWheels(Block, interface=True):
 
         u = k clip(u_c, u_max) - c Ω - μ sgn Ω
 
-    Coulomb friction μ falls linearly to 0 within coulomb_band of rest. At or beyond speed_limit a wheel gets no motor
-    torque that would accelerate it; this is evaluated at the start of each integration step.
+    Coulomb friction μ falls linearly to 0 at wheel speeds below coulomb_band. At or beyond speed_limit a wheel receives
+    no motor torque that would accelerate it; the limit is evaluated at the start of each integration step.
 
     Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018.
     """
@@ -71,7 +71,7 @@ class SpinningWheels(Block, interface=True):
         return spin / self.wheel_inertia - self.axes.T @ w
 
     def drag(self, speed: float) -> float:
-        """Return the friction torque (N m) on a wheel at a speed (rad/s)."""
+        """Return the friction torque (N m) on a wheel at its speed (rad/s)."""
         return drag_torque(speed, self.viscous_friction, self.coulomb_friction, self.coulomb_band)
 
     def drags(self, speeds: Vector4) -> Vector4:
@@ -79,8 +79,8 @@ class SpinningWheels(Block, interface=True):
         return vector(self.drag(speeds.w), self.drag(speeds.x), self.drag(speeds.y), self.drag(speeds.z))
 
     def drive(self, commands: Vector4) -> tuple[bool, bool]:
-        """Set applied_torques from commands (N m); return if a torque was limited, and if a wheel is at its speed
-        limit.
+        """Set applied_torques from commands (N m); return (True if a torque was limited, True if a wheel is at its
+        speed limit).
         """
         applied = [0.0] * WHEELS
         torque_limited = False

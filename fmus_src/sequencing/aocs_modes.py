@@ -31,14 +31,15 @@ class AocsModes(Block):
     """Mode sequence from separation to nadir pointing, with recovery.
 
     DETUMBLE to SUN: rate below calm_rate for settle_time. SUN to NADIR: attitude known and panel_normal within
-    sun_error of the Sun for settle_time. To DETUMBLE: rate above lost_rate for lost_time. NADIR to SUN: no attitude for
-    blind_time; a quaternion shorter than 0.5 is no attitude. Transitions are decided at this block's samples; a sample
-    that is not finite keeps the mode and restarts the times of settling and of lost_rate. In DETUMBLE wheels are off
-    and torquers brake; in the other modes wheels are on and torquers unload them.
+    sun_error of the Sun for settle_time. Any mode to DETUMBLE: rate above lost_rate for lost_time. NADIR to SUN: no
+    attitude for blind_time; a quaternion shorter than 0.5 counts as no attitude. Transitions are decided at this
+    block's samples; a sample that is not finite leaves the mode unchanged and restarts settle_time and lost_time. In
+    DETUMBLE the wheels are off and the torquers reduce the rate; in the other modes the wheels are on and the torquers
+    unload them.
 
     Frame: body.
 
-    Assumes no other source of modes.
+    Assumes that no other block commands modes.
 
     See docs/systems/earth_pointing.md.
     """
@@ -103,7 +104,7 @@ class AocsModes(Block):
         self.set_mode(self.start_time)
 
     def enter(self, mode: int, t: float) -> None:
-        """Start a mode at t (s)."""
+        """Enter a mode at t (s)."""
         self.mode = mode
         self.begun = t
         self.settled_since = t
@@ -116,7 +117,7 @@ class AocsModes(Block):
             self.pointing_mode = PointingMode.NADIR
 
     def knows_attitude(self) -> bool:
-        """Return True if the attitude is usable; a quaternion shorter than 0.5 is none."""
+        """Return True if the attitude is known; a quaternion shorter than 0.5 counts as unknown."""
         return self.attitude_known and is_attitude(self.estimated_quaternion)
 
     def ready(self) -> bool:

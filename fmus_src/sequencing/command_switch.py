@@ -9,10 +9,10 @@ from ..mathlib.vectors import vector
 class CommandSwitch(Block):
     """Selection of one of three command sources, without thrust unless the engine is on.
 
-    `source` 1 is the sequencer, 2 the braking guidance, 3 the hover guidance, the only one with an
-    angular_acceleration_feed. After a change to the hover guidance the last command is held until hover_plan, the plan
-    of its command, equals plan_number. Without a source there is no thrust, and a direction of length 0, for which
-    attitude control brings the rate to rest.
+    `source` 1 is the sequencer, 2 the braking guidance, 3 the hover guidance; only the hover guidance has an
+    angular_acceleration_feed. After a change to the hover guidance the last command is held until hover_plan, the
+    number of the plan to which the command belongs, equals plan_number. Without a source the output is zero thrust and
+    a direction of length 0, for which attitude control brings the rate to 0.
 
     Frame: landing site.
 
@@ -41,7 +41,9 @@ class CommandSwitch(Block):
         self.switch()
 
     def switch(self) -> None:
-        """Output the command of the source; after a plan request the last one is held until the plan is answered."""
+        """Output the command of the source; after a plan request hold the last command until the hover guidance has the
+        plan.
+        """
         if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
             self.pass_on()
         self.command.thrust_acceleration = 0.0

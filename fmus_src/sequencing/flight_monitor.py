@@ -33,7 +33,7 @@ class FlightMonitor(Block):
         self.judge()
 
     def judge(self) -> None:
-        """Latch the conditions that have occurred."""
+        """Latch the conditions that hold."""
         slow = self.speed < self.handover_speed
         if slow and self.altitude >= self.handover_altitude_low and self.altitude <= self.handover_altitude_high:
             self.handed_over = True

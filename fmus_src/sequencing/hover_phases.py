@@ -9,10 +9,10 @@ from .landing_sequence import NEVER, ROUNDING, LandingSequence, LandingStatus
 
 
 class HoverPhases(LandingSequence, interface=True):
-    """Hovers, transfers, descent and contact with their end conditions.
+    """Hovers, transfer, approach, descent and contact with their end conditions.
 
-    Hover targets lie on the local vertical of `site`: at first the origin, or the point where braking ended, then moved
-    by the re-designations and projected on the sphere.
+    Hover targets lie on the local vertical of `site`. The site is initially the origin or the point where braking
+    ended; each re-designation moves it, projected on the Moon's sphere.
     """
 
     hover_time = Parameter(
@@ -61,8 +61,8 @@ class HoverPhases(LandingSequence, interface=True):
     )
 
     def begin_first_hover(self) -> None:
-        """Request a capture to the hover over the site; a flight that starts in this phase holds until inputs are
-        sampled.
+        """Request a capture to the hover over the site; a simulation that starts in this phase waits for the first
+        inputs.
         """
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
         if self.since_start(self.sampled_time) < 0.0:
@@ -84,7 +84,9 @@ class HoverPhases(LandingSequence, interface=True):
         return close and norm(self.sampled_velocity) <= self.settled_speed
 
     def choose(self, ahead: float, chosen_since: float) -> bool:
-        """Hover while the site is re-designated, from ``chosen_since`` (s) on; return True when this is over."""
+        """Hover while the site is re-designated, from ``chosen_since`` (s) on; return True when the re-designation is
+        over.
+        """
         waited = ahead - chosen_since + ROUNDING
         if waited >= self.hover_time and self.is_settled():
             return True
@@ -94,7 +96,7 @@ class HoverPhases(LandingSequence, interface=True):
         return False
 
     def first_hover(self, t: float, ahead: float) -> bool:
-        """Complete the capture, then hover for the re-designation; return True when this is over."""
+        """Complete the capture, then hover for the re-designation; return True when the re-designation is over."""
         if self.hover_mode == HoverMode.HOLD and self.since_start(t) < ROUNDING and not self.is_settled():
             self.request_plan(HoverMode.CAPTURE)
         if self.plan_end < 0.0 and self.plan_is_over():
@@ -131,7 +133,7 @@ class HoverPhases(LandingSequence, interface=True):
         return self.plan_is_over()
 
     def begin_second_hover(self) -> None:
-        """Hold at the end of the transfer."""
+        """Request a hold at the end of the transfer."""
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
         self.request_plan(HoverMode.HOLD)
 

@@ -11,9 +11,8 @@ TIME_TOLERANCE = 1e-15  # of the time
 class LandingInputs(Block, interface=True):
     """Inputs of a landing sequencer, sampled at start + k cycle and used at start + (k + 1) cycle.
 
-    Decisions lag their inputs by one cycle whatever the communication step, so that events such as the contact of the
-    probe take effect with the same delay for every step that divides the cycle. Times between communication points are
-    moved to the next one.
+    Decisions lag their inputs by one cycle, so events such as contact of the probe take effect with the same delay for
+    every communication step that divides the cycle. A decision time between communication points moves to the next one.
 
     Frame: landing site.
     """

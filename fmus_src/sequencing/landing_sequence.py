@@ -42,11 +42,11 @@ class LandingStatus(Enumeration):
 
 
 class LandingSequence(LandingInputs, interface=True):
-    """Phases of a landing in sequence, with the command of each.
+    """Phases of a landing in sequence, with a command for each.
 
-    Phases only advance. No output depends directly on an input. A status is stored with its first time and in
-    `status_flags`; `status` is the largest so far. Plans of the hover guidance are requested by `plan_number`; its
-    outputs are ignored until it returns that number.
+    Phases only advance. No output depends directly on an input. `status_flags` contains all statuses so far, each of
+    which is stored with its first time; `status` is the largest of them. A new `plan_number` requests a plan from the
+    hover guidance, which is ignored until it returns this number.
 
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
@@ -109,7 +109,7 @@ class LandingSequence(LandingInputs, interface=True):
             self.status = status
 
     def open_phase(self, phase: int, time: float) -> None:
-        """Set the phase from ``time`` (s) on."""
+        """Set the phase that begins at ``time`` (s)."""
         self.phase = phase
         self.phase_time[phase - 1] = time
         self.mass_is_known = False
@@ -119,7 +119,7 @@ class LandingSequence(LandingInputs, interface=True):
         return time - self.phase_time[self.phase - 1]
 
     def take_over(self, source: int, engine_on: bool) -> None:
-        """Make a source responsible for the command."""
+        """Make ``source`` the source of the command."""
         self.source = source
         self.engine_on = engine_on
         self.braking_active = source == CommandSource.BRAKING
@@ -133,7 +133,7 @@ class LandingSequence(LandingInputs, interface=True):
             self.command.burn_duration = 0.0
 
     def request_plan(self, mode: int) -> None:
-        """Make the hover guidance responsible for the command, with a new plan."""
+        """Request a new plan from the hover guidance and make it the source of the command."""
         self.take_over(CommandSource.HOVER, True)
         self.hover_mode = mode
         self.plan_number = self.plan_number + 1

@@ -1,4 +1,4 @@
-"""Sequencer of a landing from orbit to contact: responsible guidance, targets and end conditions."""
+"""Sequencer of a landing from orbit to contact: command source, targets and end conditions."""
 
 import math
 
@@ -14,12 +14,12 @@ LEAST_MARGIN = 0.9  # of the dry weight; the least thrust must be smaller
 class LandingSequencer(OrbitPhases, HoverPhases):
     """Sequencer of nine landing phases: deorbit, coast, braking, hover, transfer, hover, approach, descent, contact.
 
-    Any phase can be the first. A phase that exceeds its time is ended with a status, and the next one follows. Ground
-    contact before phase 8 ends the flight as a cut-off without probe. Refused at the start, with status 9, phase 0 and
-    finished: an undefined start_phase; minimum_thrust not below maximum_thrust and 0.9 of the dry weight;
-    preliminary_altitude, final_altitude, cutoff_altitude and probe_length not in descending order; parameters that are
-    not finite. free_flight is true in phases 1 to 3 when the engine has been off for settling_time. Decisions are made
-    once per cycle, from the inputs of the previous cycle.
+    Any phase can be the first. A phase that exceeds its time ends with a status, and the next one follows. Ground
+    contact before phase 8 ends the flight as a cut-off without probe. The block refuses to start, with status 9, phase
+    0 and finished, if start_phase is undefined; if minimum_thrust is not below both maximum_thrust and 0.9 of the dry
+    weight; if preliminary_altitude, final_altitude, cutoff_altitude and probe_length are not in descending order; or if
+    a parameter is not finite. free_flight is true in phases 1 to 3 once the engine has been off for settling_time.
+    Decisions are made once per cycle, from the inputs of the previous cycle.
 
     Source: Huang 2017 (phases and altitudes); rules and times: docs/systems/landing_mission.md.
     """
@@ -39,7 +39,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.enter(self.start_phase, self.start_time)
 
     def is_refused(self) -> bool:
-        """Return True if the parameters do not permit a landing."""
+        """Return True if no landing is possible with the parameters."""
         times = self.hold_time + self.deorbit_patience + self.pointing_patience + self.handover_time_to_go
         times = times + self.braking_patience + self.solution_patience + self.hover_time + self.hover_patience
         times = times + self.lookahead + self.descent_wait + self.settling_time + self.coast_patience + self.cycle
@@ -62,7 +62,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         return not (high and self.cutoff_altitude > self.probe_length)
 
     def enter(self, phase: int, time: float) -> None:
-        """Start a phase from ``time`` (s) on."""
+        """Start a phase that begins at ``time`` (s)."""
         self.open_phase(phase, time)
         if phase <= LandingPhase.COAST:
             self.begin_deorbit()
@@ -82,20 +82,20 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.begin_contact()
 
     def watch(self, ahead: float) -> None:
-        """Record conditions that can occur in any phase."""
+        """Record the conditions that can occur in any phase."""
         if self.is_answered() and self.sampled_hover_status != HoverStatus.GOOD:
             self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
             self.note(LandingStatus.OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
-        """Start hover 1, over the site or at the end of braking."""
+        """Start the first hover, over the site or over the point where braking ended."""
         self.enter(LandingPhase.HOVER_1, ahead)
         if how == PhaseEnd.ELSEWHERE:
             self.move_site_ahead(ahead)
 
     def go_on(self, t: float, ahead: float) -> None:
-        """Run the present phase up to braking, and start the next one when it ends."""
+        """Run one of the phases up to braking, and start the next one when it ends."""
         if self.phase == LandingPhase.DEORBIT:
             said = self.deorbit(t, ahead)
             if said != PhaseEnd.GOES_ON:
@@ -113,7 +113,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.go_on_below(t, ahead)
 
     def go_on_below(self, t: float, ahead: float) -> None:
-        """Run the present phase from hover 1 on, and start the next one when it ends."""
+        """Run one of the phases from the first hover on, and start the next one when it ends."""
         over = False
         if self.phase == LandingPhase.HOVER_1:
             over = self.first_hover(t, ahead)
@@ -141,7 +141,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
                 self.is_sampled = False
 
     def decide(self, t: float, ahead: float, length: float) -> None:
-        """Decide, from the inputs at ``t`` (s), the outputs from ``ahead`` (s) on for a decision period of ``length``
+        """Set the outputs from ``ahead`` (s) on for one decision period of ``length`` (s), from the inputs at ``t``
         (s).
         """
         if not self.mass_is_known:

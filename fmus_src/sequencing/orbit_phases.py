@@ -15,7 +15,7 @@ from .landing_sequence import NEVER, ROUNDING, LandingPhase, LandingSequence, La
 
 
 class PhaseEnd(Enumeration):
-    """Completion of deorbit, coast and braking."""
+    """Completion of deorbit, coast or braking."""
 
     GOES_ON = member("in progress")
     OVER = member("complete")
@@ -25,9 +25,10 @@ class PhaseEnd(Enumeration):
 class OrbitPhases(LandingSequence, interface=True):
     """Deorbit, coast and braking with their end conditions.
 
-    The deorbit burn reduces the horizontal velocity, centred where the ellipse's pericentre lies braking_range before
-    the site; its duration is recomputed every step and held from hold_time before its end. Braking ends
-    handover_time_to_go before its target or, far from the site, at a low speed or when the guidance has finished.
+    The deorbit burn reduces the horizontal velocity. It is centred half a revolution plus braking_range before the
+    site, which puts the ellipse's pericentre braking_range before the site. Its duration is recomputed every step until
+    hold_time before its end. Braking ends handover_time_to_go before its target or, far from the site, at a low speed
+    or when the guidance has finished.
     """
 
     braking_range = Parameter(
@@ -116,7 +117,7 @@ class OrbitPhases(LandingSequence, interface=True):
         self.command.burn_duration = 0.0
 
     def begin_deorbit(self) -> None:
-        """Make the sequencer's own command responsible; the first step sets its direction."""
+        """Make the sequencer the source of the command; the first step sets its direction."""
         self.take_over(CommandSource.OWN, False)
 
     def deorbit(self, t: float, ahead: float) -> int:
@@ -149,15 +150,15 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_time_to_burn(self, burn: float) -> bool:
-        """Return True if a burn (s) from now has its middle at half a revolution plus braking_range before the site,
-        or later.
+        """Return True if a burn (s) from now has its middle half a revolution plus braking_range before the site, or
+        later.
         """
         turned = norm(self.sampled_velocity) / norm(from_centre(self.sampled_position, self.moon_radius))
         place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
         return central_angle(self.sampled_position, self.moon_radius) <= place
 
     def coast(self, t: float, ahead: float) -> int:
-        """Coast until the site is at braking_range; return the end condition of the phase."""
+        """Coast until the site is braking_range ahead; return the end condition of the phase."""
         self.face_back(t)
         before_site = self.sampled_position.z > -self.moon_radius
         left = ground_range(self.sampled_position, self.moon_radius) - self.braking_range
@@ -173,9 +174,9 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_falling(self, angle: float) -> bool:
-        """Return True if the coast is low and reaches the ground before its end, ``angle`` (rad) ahead.
+        """Return True if the coast is low and reaches the ground before its end, which is ``angle`` (rad) ahead.
 
-        A low pericentre alone is no reason to brake earlier, which would need too much propellant.
+        A low pericentre alone does not justify braking earlier, which would need too much propellant.
         """
         if altitude_of(self.sampled_position, self.moon_radius) >= self.lowest_coast:
             return False
@@ -185,18 +186,18 @@ class OrbitPhases(LandingSequence, interface=True):
         return lowest < self.coast_clearance
 
     def begin_braking(self) -> None:
-        """Make the braking guidance responsible, without thrust until the thrust axis is aligned."""
+        """Make the braking guidance the source of the command, without thrust until the thrust axis is aligned."""
         self.take_over(CommandSource.BRAKING, False)
         self.flown_divert = self.sampled_divert
 
     def divert_site(self) -> None:
-        """Move the site below the target to which braking is diverted."""
+        """Move the site to the point below the target to which braking is diverted."""
         if self.sampled_divert != self.flown_divert:
             self.flown_divert = self.sampled_divert
             self.site = site_below(self.sampled_divert_position, self.moon_radius)
 
     def ignite(self, answered: bool, ahead: float) -> None:
-        """Ignite the engine when the thrust axis is aligned with the command, or after pointing_patience."""
+        """Ignite the engine when the thrust axis is aligned with the command, at the latest after pointing_patience."""
         minimum = cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
         if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
@@ -205,7 +206,7 @@ class OrbitPhases(LandingSequence, interface=True):
             self.engine_on = True
 
     def brake(self, t: float, ahead: float) -> int:
-        """Ignite, then brake until an end condition holds; outputs of the guidance before the phase are ignored."""
+        """Ignite, then brake until an end condition holds; ignore guidance outputs from before the phase."""
         answered = self.sampled_command_time >= self.phase_time[LandingPhase.BRAKING - 1] - ROUNDING
         self.divert_site()
         if not self.engine_on:

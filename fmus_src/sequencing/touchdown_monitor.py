@@ -9,7 +9,7 @@ from ..units import deg
 class TouchdownMonitor(Block):
     """Speeds, tilt, angular rate and distance from the site at the first ground contact, with their limits.
 
-    All outputs are held from then on; before it, within_limits is false.
+    From contact on, all outputs are constant; before contact within_limits is false.
 
     Frame: landing site.
 
@@ -60,7 +60,7 @@ class TouchdownMonitor(Block):
         self.watch(self.start_time)
 
     def watch(self, time: float) -> None:
-        """Record the motion at ``time`` (s) if it is the first ground contact."""
+        """Record the motion at ``time`` (s) at the first ground contact."""
         if self.ground_contact and not self.contact:
             self.contact = True
             self.contact_time = time

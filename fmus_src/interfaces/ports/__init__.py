@@ -1,1 +1,1 @@
-"""Ports by domain."""
+"""Ports, one module for each domain."""

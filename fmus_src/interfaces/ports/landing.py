@@ -144,7 +144,7 @@ VERTICAL_SPEED = Port(
 
 
 class ThrustCommand(Bundle):
-    """Command of a guidance to engine and attitude control."""
+    """Command from a guidance to engine and attitude control."""
 
     thrust_acceleration = THRUST_ACCELERATION
     thrust_direction = Port(
