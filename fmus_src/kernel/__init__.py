@@ -1,1 +1,1 @@
-"""Kernel language: its types and elementary functions."""
+"""Types, operators and elementary functions of the kernel language."""

@@ -4,8 +4,8 @@
         GOOD = member("good")
         LIMITED = member("rate limited")
 
-`SteeringStatus.LIMITED` is the int 1 in Python and a constant in C. `Output(SteeringStatus)` and the like declare an
-Integer from the first number to the last, described by the meanings.
+`SteeringStatus.LIMITED` is the int 1 in Python and a constant in C. `Output(SteeringStatus)`, for example, declares an
+Integer bounded by the first and last number; its description lists the meanings.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ class Enumeration:
 
     @classmethod
     def describe(cls, about: str) -> str:
-        """Return a description with all members, ``about: 0 good, 1 rate limited``; an empty ``about`` means the
-        docstring.
+        """Return a description that lists all members, ``about: 0 good, 1 rate limited``; if ``about`` is empty, the
+        docstring replaces it.
         """
         members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
         summary = (cls.__doc__ or "").partition("\n")[0].rstrip(".")

@@ -1,8 +1,8 @@
-"""Elementary functions for kernels and users: those of `elementary`, with the exceptions of Python's `math`.
+"""Elementary functions for kernels and users: the functions of `elementary`, with the exceptions of Python's `math`.
 
-A NaN result of arguments without NaN raises ValueError; an infinite result of finite arguments raises OverflowError, or
-ValueError at a pole. Errors are below one unit in the last place, and results have identical bits on every processor,
-in Python and in C.
+A NaN result for arguments that are not NaN raises ValueError; an infinite result of finite arguments raises
+OverflowError, or ValueError at a pole. Errors are below one unit in the last place, and results have identical bits on
+every processor, in Python and in C.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def _refuse(y: float, if_infinite: str) -> None:
 
 
 def _check_result(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
-    """Return a function of one argument with a check that raises if the result for a finite argument is not finite."""
+    """Return a function of one argument that raises an exception if the result for a finite argument is not finite."""
 
     @functools.wraps(function)
     def call(x: float) -> float:
@@ -48,7 +48,7 @@ def _check_result(function: Callable[[float], float], if_infinite: str) -> Calla
 
 
 def _check_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
-    """Return x^y; raises if the result for finite arguments is not finite."""
+    """Return a function x^y that raises an exception if the result for finite arguments is not finite."""
 
     @functools.wraps(function)
     def call(x: float, y: float) -> float:
@@ -62,7 +62,9 @@ def _check_power(function: Callable[[float, float], float]) -> Callable[[float, 
 
 
 def _without_faults(function: F) -> F:
-    """Register a function that needs no check: its result is NaN only for NaN and finite for finite arguments."""
+    """Register a function that needs no check: for finite arguments the result is finite, and it is NaN only for
+    NaN.
+    """
     FAULTS[function] = None
     return function
 

@@ -1,7 +1,7 @@
-"""Integrators: one step of x' = f(t, x, inputs) for a state that is a float, vector or record.
+"""Integrators: one step of x' = f(t, x, inputs) for a state x that is a float, vector or record.
 
-`derivatives` is a method of a block, or a function, of time (s), state and inputs; it has no side effects. The inputs
-are constant over the step. The C translator generates each integrator separately for every `derivatives` and state.
+`derivatives` is a function, or a method of a block, of time (s), state and inputs, without side effects. The inputs are
+constant over the step. The C translator generates each integrator separately for every `derivatives` and state.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def count_steps(h: float, longest: float) -> int:
 
 
 class Translation(Record):
-    """Motion of a point."""
+    """Translational motion of a point: position and velocity."""
 
     position = Field(Vector3, unit="m", description="position of the point")
     velocity = Field(Vector3, unit="m/s", description="velocity of the point")
@@ -60,7 +60,7 @@ def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Tr
 
 
 class Forcing(Record):
-    """Acceleration over a step that does not depend on the motion."""
+    """Acceleration during a step, independent of the motion."""
 
     start = Field(Vector3, unit="m/s2", description="acceleration at the start of the step")
     middle = Field(Vector3, unit="m/s2", description="acceleration in the middle of the step")
@@ -83,5 +83,5 @@ def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h:
 
 
 def gain_of(forcing: Forcing, h: float) -> Vector3:
-    """Return the velocity gain (m/s) of a forcing over h (s), by Simpson's rule."""
+    """Return the change of velocity (m/s) by a forcing over h (s), from Simpson's rule."""
     return h * (forcing.start + 2.0 * forcing.middle + 2.0 * forcing.middle + forcing.end) / 6.0

@@ -5,10 +5,10 @@
     p[POSITION, VELOCITY] = h * identity(3)
     p = f @ p @ f.T + q
 
-Operators are `+` and `-` of equal sizes, `@` with a matrix or vector, `*` and `/` by a number, `-a` and `a.T`.
-`p[i, j]` is a number; an index with a block or slice gives a vector of two to four components, or a matrix of one row
-or column if there are more; two blocks give a matrix. `len(p)` is the number of rows. The sums of a product run from
-left to right, starting from the first product.
+Operators are `+` and `-` of equal sizes, `@` with a matrix or vector, `*` and `/` by a number, `-a` and `a.T`. `p[i,
+j]` is a number; one index and one block or slice give a vector if it has two to four components, otherwise a matrix of
+one row or column; two blocks give a matrix. `len(p)` is the number of rows. The sums of a product run from left to
+right, starting from the first product.
 
 A matrix cannot have two names: kernels reject `b = a`; `b = a.copy()` and `self.p = a` copy. A function receives the
 matrix itself, like a list, and may change its elements. In C a matrix is a struct, and operators are loops.
@@ -37,11 +37,11 @@ class Matrix:
 
     @classmethod
     def of_elements(cls, elements: Sequence, columns: int) -> Matrix:
-        """Return the matrix with these elements in row order."""
+        """Return the matrix with these elements in row-major order."""
         return cls([list(elements[k : k + columns]) for k in range(0, len(elements), columns)])
 
     def elements(self) -> tuple:
-        """Return all elements in row order."""
+        """Return all elements in row-major order."""
         return tuple(chain.from_iterable(self.rows))
 
     @property
@@ -163,7 +163,7 @@ class Matrix:
 
 
 def matrix(*rows: list) -> Matrix:
-    """Return the matrix of these rows: ``matrix([1.0, h], [0.0, 1.0])``."""
+    """Return the matrix with these rows: ``matrix([1.0, h], [0.0, 1.0])``."""
     return Matrix([[float(element) for element in row] for row in rows])
 
 
@@ -184,9 +184,9 @@ def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
 
 
 def block(first: int, size: int) -> slice:
-    """Return an index of consecutive rows or columns, a module constant: ``POSITION = block(0, 3)``.
+    """Return an index of consecutive rows or columns, for use as a module constant: ``POSITION = block(0, 3)``.
 
-    It is used as in ``p[POSITION, VELOCITY]``.
+    Two blocks select a submatrix: ``p[POSITION, VELOCITY]``.
     """
     return slice(first, first + size)
 
@@ -196,7 +196,7 @@ def _refuse_size(actual: Any, required: Any) -> NoReturn:
 
 
 def _of_three(x: float, y: float, z: float) -> Vector3:
-    """Return a vector of three components without the choice of size in `vector`, for speed in filters and rigid
+    """Return a vector of three components; faster than `vector`, which must choose the size, in filters and rigid
     bodies.
     """
     created = Vector3()
@@ -207,7 +207,7 @@ def _of_three(x: float, y: float, z: float) -> Vector3:
 
 
 def _narrow(elements: list, across: bool) -> Any:
-    """Return a slice of a row or column."""
+    """Return a slice of a row or column as a vector, or as a matrix if no vector has its size."""
     if len(elements) in VECTORS:
         return vector(*elements)
     return Matrix([elements] if across else [[element] for element in elements])

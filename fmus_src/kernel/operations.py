@@ -1,7 +1,7 @@
 """Operators of vectors and records, unrolled by component and compiled once per class.
 
-For vectors in Python FMUs these take 1.5 times as long as loops over plain lists; a subclass of tuple takes 2.2 times
-as long, a class of any size 2.6 times. For records they take half the time of a loop over fields.
+In Python FMUs the vector operators take 1.5 times as long as loops over plain lists; a subclass of tuple would take 2.2
+times, a class of any size 2.6 times as long. The record operators take half the time of a loop over fields.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ OPERATIONS = (  # name, arguments, expression of a component
 
 
 def add_operators(owner: type, components: Sequence[str], make: str) -> None:
-    """Add to a class the operators ``+`` and ``-`` with its own kind, and ``*`` and ``/`` with a number.
+    """Add to a class the operators ``+`` and ``-`` for two of its instances, and ``*`` and ``/`` for an instance and a
+    number.
 
     ``make`` is an expression for an empty instance of the class ``Own``.
     """
@@ -38,7 +39,7 @@ def fill(components: Sequence[str], expression: str) -> list[str]:
 def add_method(
     owner: type, name: str, arguments: str, lines: Sequence[str], names: Mapping[str, Any] | None = None
 ) -> None:
-    """Add a method with these statements to a class; they can use ``Own``, the class, ``new`` and other ``names``."""
+    """Add to a class a method with these statements, which can use ``Own`` (the class), ``new`` and other ``names``."""
     namespace: dict[str, Any] = {"new": object.__new__, "Own": owner, **(names or {})}
     text = "\n    ".join([f"def {name}({arguments}):", *lines])
     exec(compile(text, __file__, "exec"), namespace)

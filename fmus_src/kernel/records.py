@@ -29,7 +29,7 @@ class Field:
     """Field of a record: type, unit, frame and description.
 
     ``kind`` is float, int, bool, Vector2, Vector3, Vector4 or a record; ``frame`` is the frame of a vector's
-    components; ``frozen`` has the meaning that it has for a block's `State`.
+    components; ``frozen`` has the same meaning as for a block's `State`.
     """
 
     kind: Any = float
@@ -67,12 +67,12 @@ class Record(metaclass=_RecordType):
     fields: ClassVar[dict[str, Field]]
 
     def elements(self) -> tuple[Any, ...]:
-        """Return the numbers of all fields in order."""
+        """Return the numbers of all fields in order of declaration."""
         return tuple(_flatten(getattr(self, name) for name in self.fields))
 
     @classmethod
     def of_elements(cls, elements: Sequence[Any]) -> Any:
-        """Return the record with these numbers."""
+        """Return the record whose fields contain these numbers, in order of declaration."""
         return _take(cls, iter(elements))
 
     def __eq__(self, other: object) -> bool:
@@ -108,7 +108,7 @@ R = TypeVar("R", bound=Record)
 
 
 def replace(record: R, **changes: Any) -> R:
-    """Return a copy of the record with other values of some fields."""
+    """Return a copy of the record with new values for some fields."""
     copy = object.__new__(type(record))
     for name in record.fields:
         setattr(copy, name, changes.pop(name) if name in changes else getattr(record, name))
@@ -132,7 +132,7 @@ def count_numbers(kind: Any) -> int:
 
 
 def flat_fields(record: type[Record], prefix: str = "") -> list[tuple[str, Field]]:
-    """Return name and field of each number: ``attitude[1]``, ``motion.speed``."""
+    """Return the name and field of each number, with names such as ``attitude[1]`` and ``motion.speed``."""
     numbers: list[tuple[str, Field]] = []
     for name, field in record.fields.items():
         if isinstance(field.kind, _RecordType):
@@ -145,7 +145,7 @@ def flat_fields(record: type[Record], prefix: str = "") -> list[tuple[str, Field
 
 
 def _write_methods(record: Any) -> None:
-    """Add constructor and, if its fields form a vector space, operators to a record class."""
+    """Add a constructor to a record class and, if its fields form a vector space, the operators."""
     assigned = [f"self.{name} = {name}" for name in record.fields]
     add_method(record, "__init__", f"self, *, {', '.join(record.fields)}", assigned)
     if is_space(record):

@@ -1,9 +1,9 @@
 """Vectors of two, three or four floats. Vectors are immutable values: operators return new ones.
 
 `vector(x, y, z)` creates one. `+`, `-`, and `*` and `/` by a number or another vector operate component by component;
-the scalar product is `vectors.dot`. `v[k]`, `v.x` (w, x, y, z for four, as for a quaternion, scalar first), `v[1:4]`
-and `x, y, z = v` read components. In C a vector is a struct that is passed and returned by value, with the same
-operations in kernel_vectors.h.
+the scalar product is `vectors.dot`. `v[k]`, `v.x`, `v[1:4]` and `x, y, z = v` read components; four components are
+named w, x, y, z, as in a quaternion with its scalar first. In C a vector is a struct that is passed and returned by
+value, with the same operations in kernel_vectors.h.
 
 The operators are unrolled for each size (`operations.py`).
 """
@@ -17,7 +17,7 @@ from .operations import add_method, add_operators, fill
 
 
 class Vector:
-    """Base of vectors of all sizes; in a kernel's annotation, a vector of any size."""
+    """Base of vectors of all sizes; as an annotation in a kernel, a vector of any size."""
 
     __slots__ = ()
     names: ClassVar[str]
@@ -42,7 +42,9 @@ class Vector:
         return f"vector{self.elements()}"
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """Return an array from numpy's functions, except for a numpy number times a vector, which gives a vector."""
+        """Return what numpy's function gives for the vector as an array, but a vector for a numpy number times the
+        vector.
+        """
         result = getattr(ufunc, method)(
             *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
         )

@@ -1,4 +1,4 @@
-"""Sensor of thrust axis and angular rate."""
+"""Sensor of the thrust axis and its angular rate."""
 
 from ..block import Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -55,7 +55,7 @@ class AttitudeSensor(RandomSensor):
         self.misalignment = self.constant_sigma * constant
 
     def turn(self, axis: Vector3, rotation: Vector3) -> Vector3:
-        """Return an axis turned by a small rotation (rad); unchanged if it has no length."""
+        """Return an axis turned by a small rotation (rad); an axis of length 0 is returned unchanged."""
         moved = axis + cross(rotation, axis)
         length = norm(moved)
         if length > 0.0:

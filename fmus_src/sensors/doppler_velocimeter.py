@@ -13,13 +13,13 @@ class DopplerVelocimeter(RandomSensor):
 
         v_m = v + (speed_error |v| + noise_sigma) n
 
-    The error is proportional to speed in each axis, since beams mix the axes. The first sample is at the start. Above
-    maximum_altitude output and count are held, 0 before the first sample. Random numbers are drawn at every sample, so
-    that they depend on seed, stream and sample number only.
+    The error in each axis grows with the total speed, since each beam measures a mixture of the axes. The first sample
+    is at the start. Above maximum_altitude the output and the count keep their last values, which are 0 before the
+    first sample. Random numbers are drawn at every sample, so that they depend on seed, stream and sample number only.
 
     Frame: landing site, with known attitude.
 
-    Assumes beams that always reach the ground.
+    Assumes that all beams reach the ground.
 
     See docs/systems/lunar_landing.md.
     """

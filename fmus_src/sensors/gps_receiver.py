@@ -27,13 +27,13 @@ class GpsReceiver(RandomSensor):
         r_m = r + e + position_sigma n    v_m = v + velocity_sigma n
         e^+ = f e + markov_sigma sqrt(1 - f^2) n    f = exp(-h/markov_time)
 
-    The Gauss-Markov error starts in its stationary state. A sample arrives ``latency`` sample periods later, with its
-    time plus clock_error. During an outage no sample is taken; those in transit arrive. Random numbers depend on seed,
-    stream and sample number only.
+    The Gauss-Markov error starts in its stationary state. A sample arrives ``latency`` sample periods later, with the
+    time at which it was taken plus clock_error. During an outage no sample is taken; samples taken earlier still
+    arrive. Random numbers depend on seed, stream and sample number only.
 
     Frame: inertial.
 
-    Assumes no model of signals or satellites.
+    Assumes errors that do not depend on the visible satellites.
 
     See docs/systems/earth_pointing.md.
     """

@@ -1,4 +1,4 @@
-"""Accelerometers that measure increments of the integral of specific force."""
+"""Accelerometers that measure increments of integrated specific force."""
 
 import math
 
@@ -10,15 +10,15 @@ from ..mathlib.vectors import vector
 
 
 class InertialSensor(Block):
-    """Three accelerometers with integrated specific force in landing-site axes.
+    """Three accelerometers that give the integrated specific force in landing-site axes.
 
-    With the true increment Δv since the last sample, T before:
+    With the true increment Δv since the last sample, a time T earlier:
 
         Δv_m = (1 + w ×) (1 + diag(k)) Δv + b T + σ sqrt(T) n
 
-    Bias b, scale factors k and misalignment w (rad, attitude error) are drawn per axis at the start and constant; σ is
-    velocity_random_walk. The start has no increment and is not counted. Random numbers depend on seed, stream and
-    sample number only.
+    Bias b, scale factors k and misalignment w (an attitude error, rad) are drawn per axis at the start and then
+    constant; σ is velocity_random_walk. The start gives no increment and does not count as a sample. Random numbers
+    depend on seed, stream and sample number only.
 
     Frame: landing site.
 

@@ -10,12 +10,12 @@ from ..mathlib.vectors import vector
 
 
 class InfraredVertical(Block):
-    """Infrared horizon sensor of roll and pitch with bias and normal errors; yaw is not measured.
+    """Infrared horizon sensor of roll and pitch with biases and normal errors; yaw is not measured.
 
         γ_m = γ + bias_1 + sigma n    θ_m = θ + bias_2 + sigma n
 
-    The errors n are white or, with a correlation_time, those of a first-order Gauss-Markov process of the same sigma.
-    The first sample is at the start. Random numbers depend on seed, stream and sample number only.
+    The errors n are white or, with a correlation_time, a first-order Gauss-Markov process of the same sigma. The first
+    sample is at the start. Random numbers depend on seed, stream and sample number only.
 
     Frame: orbital.
 
@@ -47,7 +47,7 @@ class InfraredVertical(Block):
         self.measure(0.0)
 
     def measure(self, kept: float) -> None:
-        """Take a sample with errors correlated to the previous ones."""
+        """Take a sample, with errors correlated with the previous errors."""
         numbers = normals(self.generator)
         self.error = kept * self.error + math.sqrt(1.0 - kept * kept) * vector(numbers.x, numbers.y)
         self.measured_roll = self.angles.x + self.bias.x + self.sigma * self.error.x

@@ -7,16 +7,16 @@ from .random_sensor import RandomSensor
 
 
 class LaserRanger(RandomSensor):
-    """Laser ranger of the vector from a robot to an object, with white errors.
+    """Laser ranger that measures the vector from a robot to an object, with white errors.
 
         ρ_m = r_target - r_robot + σ n
 
-    The error σ per inertial axis is far_sigma at true ranges of near_range and beyond, near_sigma below. The first
-    sample is at the start. Random numbers depend on seed, stream and sample number only.
+    The standard deviation σ per inertial axis is far_sigma at true ranges from near_range on and near_sigma at shorter
+    ranges. The first sample is at the start. Random numbers depend on seed, stream and sample number only.
 
     Frame: inertial.
 
-    Assumes that the object's centre is measured from any side, with all three components.
+    Assumes that all three components of the vector to the object's centre are measured from any side.
 
     Source: Somov, Butyrin, Somov and Somova. See docs/systems/robot_rendezvous.md.
     """

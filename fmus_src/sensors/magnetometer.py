@@ -23,9 +23,9 @@ class Magnetometer(RandomSensor):
 
         B_m = (1 + S) B + K m + bias + b + sigma n
 
-    B_m is limited to ±range and rounded to a multiple of quantum. S is scale plus a random matrix; that and the random
-    bias b are constant over a simulation. m is the applied dipole of the torquers. The first sample is at the start.
-    Random numbers depend on seed, stream and sample number only.
+    B_m is limited to ±range and rounded to a multiple of quantum. S is scale plus a random matrix; this matrix and the
+    random bias b are constant over a simulation. m is the dipole that the torquers apply. The first sample is at the
+    start. Random numbers depend on seed, stream and sample number only.
 
     Frame: body.
 

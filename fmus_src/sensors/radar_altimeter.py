@@ -12,12 +12,13 @@ class RadarAltimeter(RandomSensor):
 
         h_m = h + (range_error h + noise_sigma) n
 
-    The first sample is at the start. Above maximum_altitude output and count are held, 0 before the first sample.
-    Random numbers are drawn at every sample, so that they depend on seed, stream and sample number only.
+    The first sample is at the start. Above maximum_altitude the output and the count keep their last values, which are
+    0 before the first sample. Random numbers are drawn at every sample, so that they depend on seed, stream and sample
+    number only.
 
     Frame: landing site.
 
-    Assumes a smooth sphere without terrain.
+    Assumes a smooth spherical Moon without terrain.
 
     See docs/systems/lunar_landing.md.
     """

@@ -5,7 +5,7 @@ from ..mathlib.rng import seed_streams
 
 
 class RandomSensor(Block, interface=True):
-    """Sensor with a sample at the start and at every step, and errors from its own random stream.
+    """Sensor that takes a sample at the start and at every step, with errors from its own random stream.
 
     A sensor declares seed, stream and generator, and defines `measure`; errors that are constant over a simulation are
     drawn in `draw_constants`.

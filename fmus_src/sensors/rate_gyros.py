@@ -26,17 +26,17 @@ class RateGyros(RandomSensor):
         ω_m = (1 + S) ω + bias + b + e + sigma n    b^+ = b + bias_walk sqrt(h) n
 
     ω_m is limited to ±range and rounded to a multiple of quantum. The random bias b is uniform within ±bias_limit per
-    axis at the start and performs a random walk; a sample has the mean of the bias before and after the step. An angle
-    random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). The bias instability e is a first-order Gauss-Markov
-    process that starts in its stationary state. A sample arrives ``latency`` sample periods later. The first sample is
-    at the start. Random numbers depend on seed, stream, sample number, and on the presence of a walk and an
-    instability.
+    axis at the start and performs a random walk; a sample contains the mean of the biases before and after the step. An
+    angle random walk of N rad/sqrt(s) corresponds to sigma = N/sqrt(sample_period). The bias instability e is a
+    first-order Gauss-Markov process that starts in its stationary state. A sample arrives ``latency`` sample periods
+    later. The first sample is at the start. Random numbers depend on seed, stream and sample number, and on whether a
+    bias walk and a bias instability are present.
 
     Frame: body.
 
     Assumes errors independent of temperature.
 
-    Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes:
+    Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Magnitudes:
     docs/systems/earth_pointing.md.
     """
 

@@ -31,10 +31,11 @@ class StarInertial(RandomSensor):
 
         q_m = q rotation(e)    e = attitude_sigma n
 
-    e is in body axes, with roll_sigma about the boresight if that is not 0. No sample is taken while the Sun is within
-    sun_exclusion of the boresight, the Moon within moon_exclusion, the limb of the body within limb_exclusion, or the
-    angular velocity above rate_limit; 0 switches an exclusion off. A sample arrives ``latency`` sample periods later,
-    with its time. The first sample is at the start. Random numbers depend on seed, stream and sample number only.
+    e is in body axes; about the boresight roll_sigma, unless it is 0, replaces attitude_sigma. No sample is taken while
+    the Sun is within sun_exclusion of the boresight, the Moon within moon_exclusion, or the limb of the central body
+    within limb_exclusion, or while the angular velocity exceeds rate_limit; the value 0 switches a limit off. A sample
+    arrives ``latency`` sample periods later, with the time at which it was taken. The first sample is at the start.
+    Random numbers depend on seed, stream and sample number only.
 
     Frames: body; inertial.
 
@@ -134,7 +135,9 @@ class StarInertial(RandomSensor):
         return rotation
 
     def is_within(self, aim_inertial: Vector3, direction: Vector3, angle: float) -> bool:
-        """Return True if a direction is within an angle (rad) of the unit vector ``aim_inertial``."""
+        """Return True if a direction is within an angle (rad) of the unit vector ``aim_inertial``; False for an
+        angle of 0.
+        """
         if angle > 0.0:
             return dot(aim_inertial, direction) > cos(angle) * norm(direction)
         return False

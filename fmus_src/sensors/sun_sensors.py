@@ -32,16 +32,16 @@ class SunSensors(RandomSensor):
 
         i = max(0, n · s) (1 + k) ν + albedo_factor max(0, n · down) + sigma n_r
 
-    where the first term needs s within field_of_view of n. The measured direction is that of the sum of currents times
-    normals if the sum is longer than threshold. For pairs of opposite heads on perpendicular axes it is exact with a
-    field_of_view of 90 deg; with less, components below its cosine are 0, up to 7.1 deg at 85 deg. If fine_sigma is not
-    0 and the Sun within fine_field of the boresight, the fine head gives the direction with a small random rotation.
-    Scale factors are random and constant over a simulation. Random numbers depend on seed, stream and sample number
-    only.
+    where the first term is 0 unless s is within field_of_view of n. The measured direction is the direction of the sum
+    of i n over all heads, if this sum is longer than threshold. With pairs of opposite heads on perpendicular axes the
+    direction is free of systematic errors for a field_of_view of 90 deg; for a smaller one, components of s below
+    cos(field_of_view) are lost, which causes errors up to 7.1 deg at 85 deg. If fine_sigma is not 0 and the Sun is
+    within fine_field of the boresight, the fine head measures the direction with a small random rotation. Scale factors
+    are random and constant over a simulation. Random numbers depend on seed, stream and sample number only.
 
-    Frames: body; Sun and position in inertial axes.
+    Frames: body; inertial for the Sun's direction and the position.
 
-    Assumes heads without shadows of the spacecraft.
+    Assumes that the spacecraft casts no shadow on the heads.
 
     See docs/systems/earth_pointing.md.
     """

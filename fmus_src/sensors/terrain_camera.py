@@ -8,12 +8,13 @@ from .random_sensor import RandomSensor
 
 
 class TerrainCamera(RandomSensor):
-    """Terrain camera for position from minimum_altitude to maximum_altitude, with white errors.
+    """Terrain camera that measures position between minimum_altitude and maximum_altitude, with white errors.
 
         r_m = r + (altitude_error h + noise_sigma) n
 
-    The first sample is at the start. Outside the range of altitude output and count are held, 0 before the first
-    sample. Random numbers are drawn at every sample, so that they depend on seed, stream and sample number only.
+    The first sample is at the start. Outside this range of altitude the output and the count keep their last values,
+    which are 0 before the first sample. Random numbers are drawn at every sample, so that they depend on seed, stream
+    and sample number only.
 
     Frame: landing site.
 

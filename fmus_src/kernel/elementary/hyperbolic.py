@@ -1,6 +1,6 @@
 """sinh, cosh, tanh. Kernel functions.
 
-Series up to 1; above 1 the exponential in two doubles.
+Arguments up to 1 use a series, larger ones the exponential in two doubles.
 """
 
 import math

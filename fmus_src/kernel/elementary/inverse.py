@@ -1,8 +1,8 @@
 """asin, acos, atan, atan2. Kernel functions.
 
 atan uses a series about the nearest of 0, atan(1/2), pi/4, atan(3/2) and pi/2; asin and acos use their series up to
-1/2, and above 1/2 that of half the complement (Ng, in the freely distributable mathematical library of Sun
-Microsystems, 1993). Rounding errors of square roots and quotients are compensated.
+1/2, and for |x| above 1/2 the series of asin(sqrt((1 - |x|)/2)) (Ng, in the freely distributable mathematical library
+of Sun Microsystems, 1993). Rounding errors of square roots and quotients are compensated.
 """
 
 import math
@@ -92,7 +92,7 @@ def atan(x: float) -> float:
 
 
 def atan2(y: float, x: float) -> float:
-    """Return the angle of the point (x, y), from -pi to pi."""
+    """Return the angle (rad) of the point (x, y), from -pi to pi."""
     a = abs(y)
     b = abs(x)
     if a != a or b != b:

@@ -1,4 +1,4 @@
-"""x to the power y as exp(y log x), with logarithm and product in two doubles. Kernel functions."""
+"""x to the power y as exp(y log x), with the logarithm and the product in two doubles. Kernel functions."""
 
 import math
 

@@ -1,8 +1,8 @@
 """Reduction of angles by multiples of pi/2. Kernel functions.
 
-Up to 2^16 with pi/2 in three parts of 33 bits and a tail (Cody and Waite 1980); above with as many bits of 2/pi as the
-exponent of the angle requires (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM Newsletter 18,
-1983).
+Angles up to 2^16 are reduced with pi/2 in three parts of 33 bits and a tail (Cody and Waite 1980); larger angles with
+as many bits of 2/pi as their exponent requires (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM
+Newsletter 18, 1983).
 """
 
 import math
@@ -98,7 +98,7 @@ def reduce_angle(x: float) -> tuple[int, float, float]:
 
 
 def reduce_large(x: float) -> tuple[int, float, float]:
-    """Return the same as `reduce_angle` for angles of any magnitude."""
+    """Return the same as `reduce_angle`, by the method for large angles, which applies to any magnitude."""
     z, exponent = math.frexp(abs(x))
     digits = [0.0] * 3
     for i in range(3):

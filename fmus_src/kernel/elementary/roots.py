@@ -1,7 +1,7 @@
 """cbrt and hypot. Kernel functions.
 
-cbrt is a polynomial followed by one step of Halley's method and one of Newton's with the exact residual; hypot is a
-square root followed by one such Newton step.
+cbrt evaluates a polynomial, then takes one step of Halley's method and one step of Newton's method with the exact
+residual; hypot takes a square root and then one such Newton step.
 """
 
 import math

@@ -1,7 +1,7 @@
 """sin, cos, tan. Kernel functions.
 
-Polynomials on |r| <= pi/4 that include the tail of the reduced angle (Ng, in the freely distributable mathematical
-library of Sun Microsystems, 1993).
+The functions are polynomials on |r| <= pi/4 that include the tail of the reduced angle (Ng, in the freely distributable
+mathematical library of Sun Microsystems, 1993).
 """
 
 import math
