@@ -62,9 +62,7 @@ def _check_power(function: Callable[[float, float], float]) -> Callable[[float, 
 
 
 def _without_faults(function: F) -> F:
-    """Register a function that needs no check: for finite arguments the result is finite, and it is NaN only for
-    NaN.
-    """
+    """Register a function that needs no check: finite arguments give finite results, and only NaN gives NaN."""
     FAULTS[function] = None
     return function
 

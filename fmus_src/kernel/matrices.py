@@ -16,7 +16,7 @@ TERMS = 16  # of the exponential's series: at a norm of 1/2 the remainder is bel
 
 
 def diagonal(v: Vector) -> Matrix:
-    """Return the diagonal matrix of a vector v."""
+    """Return the matrix with the vector v on its diagonal and zeros elsewhere."""
     a = zeros(len(v), len(v))
     for i in range(len(v)):
         a[i, i] = v[i]
@@ -100,10 +100,9 @@ def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
 
 
 def inverse(a: Matrix) -> tuple[Matrix, bool]:
-    """Return (a^-1, True) by elimination with row exchanges; the second value is False if a is not finite or a pivot is
-    0.
+    """Return (a^-1, True) by elimination with row exchanges; (any matrix, False) if a is not finite or a pivot is 0.
 
-    If it is False, the matrix must not be used. Source: Golub and Van Loan 2013, section 3.4.
+    Source: Golub and Van Loan 2013, section 3.4.
     """
     rest = a.copy()
     b = identity(len(a))
@@ -133,7 +132,8 @@ def inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def exponential(a: Matrix, t: float) -> Matrix:
-    """Return exp(a t) for a finite a: the series for a t/2^k, squared k times, with k for a norm of a t/2^k below 1/2.
+    """Return exp(a t) for a finite a: the series for a t/2^k, squared k times; k reduces the norm of a t/2^k to below
+    1/2.
 
     Source: Moler and Van Loan 2003, method 3.
     """
@@ -161,5 +161,5 @@ def exponential(a: Matrix, t: float) -> Matrix:
 
 
 def cross_matrix(v: Vector3) -> Matrix:
-    """Return the 3 x 3 matrix that multiplies u to v x u."""
+    """Return the 3 x 3 matrix V of a vector v, with V u = v x u."""
     return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])

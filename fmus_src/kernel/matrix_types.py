@@ -5,10 +5,10 @@
     p[POSITION, VELOCITY] = h * identity(3)
     p = f @ p @ f.T + q
 
-Operators are `+` and `-` of equal sizes, `@` with a matrix or vector, `*` and `/` by a number, `-a` and `a.T`. `p[i,
-j]` is a number; one index and one block or slice give a vector if it has two to four components, otherwise a matrix of
-one row or column; two blocks give a matrix. `len(p)` is the number of rows. The sums of a product run from left to
-right, starting from the first product.
+Operators are `+` and `-` of equal sizes, `@` with a matrix or vector, `*` and `/` by a number, `-a` and `a.T`. Two
+indices select a number; one index and one block or slice select a vector if it has two to four components, otherwise a
+matrix of one row or column; two blocks select a matrix. `len(p)` is the number of rows. The sums of a product run from
+left to right, starting from the first product.
 
 A matrix cannot have two names: kernels reject `b = a`; `b = a.copy()` and `self.p = a` copy. A function receives the
 matrix itself, like a list, and may change its elements. In C a matrix is a struct, and operators are loops.

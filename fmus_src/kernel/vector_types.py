@@ -42,9 +42,7 @@ class Vector:
         return f"vector{self.elements()}"
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """Return what numpy's function gives for the vector as an array, but a vector for a numpy number times the
-        vector.
-        """
+        """Apply a function of numpy to the vector as an array; a number of numpy times a vector remains a vector."""
         result = getattr(ufunc, method)(
             *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
         )

@@ -1,4 +1,4 @@
-"""Filter of measured quaternions for attitude and angular velocity errors relative to a plan."""
+"""Filter of measured quaternions for errors of attitude and angular velocity relative to a plan."""
 
 import math
 
@@ -24,9 +24,9 @@ AT_ONCE = ("measured_quaternion", "sample_count", "planned_quaternion", "planned
 
 
 class AttitudeFilter(Block):
-    """Filter of attitude and angular velocity error against a plan, in body axes.
+    """Filter of the errors of attitude and angular velocity relative to a plan, in body axes.
 
-    With the error quaternion (e_0, e) of planned^-1 estimated, the error is 2 e_0 e.
+    With the error quaternion (e_0, e) = planned^-1 estimated, the attitude error is 2 e_0 e.
 
     method 0: mean of the last mean_samples errors; the rate error is the difference of the last two means divided by
     the time between them.
@@ -37,10 +37,11 @@ class AttitudeFilter(Block):
         G^+ = C (G + (M + J d) h/2) + (M + J d) h/2    ω^+ = J^-1 (G^+ - H^+)
 
     with the rotation C to the new body axes and the gyros' momentum H from the gimbal angles. jet_torque and jet_force
-    are those of the last step. When the jets change, the disturbance changes by jet_torque_error times the change of
-    force; process_noise and disturbance_noise cover the rest.
+    refer to the last step. When the jets' force changes, the variance of the disturbance grows by the square of
+    jet_torque_error times the change; process_noise and disturbance_noise model all other changes.
 
-    Samples that are not finite or not an attitude are skipped and reported; without a planned attitude errors are held.
+    Samples that are not finite or not an attitude are skipped and reported; without a planned attitude the errors keep
+    their values.
 
     Frame: body; quaternions from body to inertial.
 
@@ -149,14 +150,16 @@ class AttitudeFilter(Block):
         self.publish()
 
     def widen(self) -> None:
-        """Increase the variance of the disturbance after a change of the jets' force."""
+        """Increase the variance of the disturbance according to the change of the jets' force."""
         jump = self.jet_force - self.last_force
         self.last_force = self.jet_force
         scale = 3.0 * self.jet_torque_error / (self.inertia.x + self.inertia.y + self.inertia.z)
         self.covariance[DISTURBANCE, DISTURBANCE] += scale * scale * dot(jump, jump)
 
     def predict(self, h: float) -> None:
-        """Propagate estimate and covariance by h (s), with total angular momentum conserved except for the jets."""
+        """Propagate estimate and covariance by h (s), with total angular momentum changed by the jets and the
+        disturbance only.
+        """
         momentum_body = self.inertia * self.angular_velocity + self.last_momentum
         # half of the change by jets and disturbance over h, and the angular velocity in the middle
         impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
@@ -217,7 +220,7 @@ class AttitudeFilter(Block):
         self.mean_time = time
 
     def publish(self) -> None:
-        """Put errors and standard deviations on the outputs."""
+        """Output errors and standard deviations."""
         if not is_attitude(self.planned_quaternion):
             self.status = SampleStatus.NO_ATTITUDE
             return

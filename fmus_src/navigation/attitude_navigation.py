@@ -1,4 +1,4 @@
-"""Slot of attitude navigation: from star tracker and gyros to attitude and angular velocity."""
+"""Interface of attitude navigation, which estimates attitude and angular velocity from star tracker and gyros."""
 
 from ..block import Block, Input, Output, Parameter
 from ..interfaces.ports import body, robot, sampling, satellite, space
@@ -23,7 +23,7 @@ class AttitudeNavigationStatus(Enumeration):
 class AttitudeNavigation(Block, interface=True):
     """Estimated attitude and angular velocity of a satellite.
 
-    Samples of star tracker, gyros, Sun sensors and magnetometer come with counts that signal new ones. The true motion
+    Each sensor (star tracker, gyros, Sun sensors, magnetometer) has a count that signals a new sample. The true motion
     is connected for navigation without errors. All blocks of the slot have the same parameters.
 
     Frames: body; inertial for modelled directions; quaternions from body to inertial.

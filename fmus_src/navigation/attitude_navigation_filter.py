@@ -30,18 +30,19 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     """Multiplicative extended Kalman filter of attitude and gyro bias.
 
     A star sample corrects attitude and bias by a small rotation in body axes; the first one initialises the attitude.
-    Its error is star_sigma per axis, about the boresight roll_sigma if that is not 0. A sample with a star_time up to
-    eight sample periods old is first propagated by the gyros; older ones are skipped. A direction y to the Sun or of
-    the field, with the modelled direction u in inertial axes, corrects the attitude across itself:
+    The assumed standard deviation is star_sigma per axis; about the boresight roll_sigma replaces it unless it is 0. A
+    sample with a star_time up to eight sample periods ago is first propagated by the gyros; older samples are skipped.
+    A measured direction y, to the Sun or of the magnetic field, with the modelled direction u in inertial axes,
+    corrects the attitude about the axes across y:
 
         z = y - R^T u    H = [R^T u]    d^2 = z^T (H P H^T + σ^2)^-1 z
 
     Before the first star sample both directions in one sample period give the initial attitude (TRIAD). Components are
-    processed one after another; the covariance is 6 x 6. A sample that is not finite, no attitude, or a direction of
-    length 0 is skipped and reported, as is one with d^2 beyond ``gate``; after rejects_to_restart in a row of one
-    sensor the attitude covariance is reset.
+    processed one after another; the covariance is 6 x 6. A sample is skipped and reported if it is not finite, is not
+    an attitude, is a direction of length 0, or has d^2 beyond ``gate``; after rejects_to_restart samples of a sensor in
+    a row beyond the gate, the attitude covariance is reset.
 
-    Assumes independent errors as declared.
+    Assumes independent errors with the declared standard deviations.
 
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2; Black 1964 (TRIAD); Markley and
     Crassidis 2014, sections 5.1 and 6.2.
@@ -77,7 +78,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.take_samples(self.start_time)
 
     def remember_turn(self, start: float, end: float) -> None:
-        """Store the rotation between two times (s) as the newest one."""
+        """Store ``turn``, the rotation between two times (s), as the newest one."""
         for i in range(TURNS - 1):
             k = TURNS - 1 - i
             self.turns[k, 0:3] = self.turns[k - 1, 0:3]
@@ -88,8 +89,8 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.turn_ends[0] = end
 
     def turned_on(self, q: Vector4) -> Vector4:
-        """Return the attitude of star_time propagated to now by the gyros, at a constant rate within each sample
-        period.
+        """Return an attitude measured at star_time, propagated to the present by the gyros at a constant rate in
+        each sample period.
         """
         if self.star_time < 0.0:
             return q
@@ -103,7 +104,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         return normalise(q)
 
     def restart(self, variance: float) -> None:
-        """Reset the attitude covariance to a variance (rad^2) per axis, without correlation to the bias."""
+        """Reset the attitude covariance to a variance (rad^2) per axis, without correlation with the bias."""
         self.covariance[ROTATION, ROTATION] = variance * identity(3)
         self.covariance[ROTATION, BIAS] = zeros(3, 3)
         self.covariance[BIAS, ROTATION] = zeros(3, 3)
@@ -177,7 +178,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.accept(sensor, h, variances, z)
 
     def is_new(self, counted: bool, measured: Vector3, reference: Vector3) -> bool:
-        """Return True if a new direction and its reference are finite and not 0; report a new one that is not."""
+        """Return True for a new direction if it and its reference are finite and not 0; if they are not, set the
+        status.
+        """
         if not counted:
             return False
         if is_finite(measured) and is_finite(reference) and norm(measured) > 0.0 and norm(reference) > 0.0:

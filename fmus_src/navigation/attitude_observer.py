@@ -1,4 +1,6 @@
-"""Slot of observers of the orbital attitude: from measured roll, pitch and rates to all angles and rates."""
+"""Interface of observers of the orbital attitude, which estimate all angles and rates from measured roll, pitch and
+rates.
+"""
 
 import math
 
@@ -28,16 +30,17 @@ class AttitudeObserver(OrbitalBody, interface=True):
     """Observer of roll, yaw, pitch and angular velocity without a measurement of yaw.
 
     Yaw affects the roll rate only by -ω_0 ψ, through the rotation of the orbital frame. At each sample an observer
-    receives roll, pitch and angular velocity, and the pulses of the previous sample period. It starts from the first
-    sample with yaw 0. Without new finite samples of both sensors it propagates the estimate by the equations of motion.
-    All observers of the slot have the same parameters; jets and inertia are those known on board.
+    receives roll, pitch and angular velocity, and the pulses of the previous sample period. The first estimate is the
+    first sample with yaw 0. Without new finite samples of both sensors an observer propagates the estimate by the
+    equations of motion. All observers of the slot have the same parameters; jets and inertia have the values known on
+    board.
 
     An observer defines `begin`, which may compute gains, and `observe`, which sets the estimate from the sample, the
     previous sample and the pulses between them.
 
     Frames: orbital; body.
 
-    Assumes a circular orbit, and inertia and jets as known on board.
+    Assumes a circular orbit.
 
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
@@ -119,11 +122,13 @@ class AttitudeObserver(OrbitalBody, interface=True):
         """Set the estimate for the present sample."""
 
     def mean_torque(self, pulses: Vector3) -> Vector3:
-        """Return the mean torque (N m, body) over the sample period."""
+        """Return the mean torque (N m, body) over the sample period of ``pulses`` (s) and the constant torque."""
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
     def carry(self, split: bool) -> AttitudeState:
-        """Return the previous estimate propagated over a sample period, pulse by pulse or under their mean torque."""
+        """Return the previous estimate propagated over a sample period: with ``split`` pulse by pulse, otherwise
+        under the mean torque.
+        """
         if split:
             return self.fire(self.estimate, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
         torque = self.mean_torque(self.fired_pulses)
@@ -141,7 +146,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         return angles and is_finite(self.measured_angular_velocity)
 
     def judge(self) -> None:
-        """Set the status from the sample."""
+        """Set the status according to the sample."""
         self.status = ObserverStatus.GOOD
         if not self.finite():
             self.status = ObserverStatus.NOT_FINITE

@@ -15,9 +15,9 @@ class ColouredNavigation(Navigation):
 
         e^+ = f e + σ sqrt(1 - f^2) n    f = exp(-h/correlation_time)    error = e + white_share σ n
 
-    It applies errors of a filter's size and bandwidth to guidance without a filter. The process starts in its
-    stationary state; errors of position and velocity are independent. Sensors are not used. Random numbers depend on
-    seed, stream and the number of the communication point only.
+    The block gives guidance an estimate with the error magnitude and bandwidth of a filter, without a filter. The
+    process starts in its stationary state; errors of position and velocity are independent. Sensors are not used.
+    Random numbers depend on seed, stream and the number of the communication point only.
 
     Frame: landing site.
 

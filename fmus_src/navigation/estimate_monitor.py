@@ -13,7 +13,8 @@ class EstimateMonitor(Block):
 
         NEES = e^T P^-1 e
 
-    It is chi-square distributed with six degrees of freedom if errors are normal and the covariance is right.
+    The normalised estimation error squared (NEES) is chi-square distributed with six degrees of freedom if the errors e
+    are normal with covariance P.
 
     Frame: landing site.
 

@@ -1,4 +1,4 @@
-"""Base of Kalman filters around an inertial navigation, except for the covariance computations."""
+"""Base of navigation with an inertial sensor and a Kalman filter; subclasses define the covariance computations."""
 
 import math
 
@@ -35,12 +35,12 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
         a = b + diag(k) f + w × f    δr^+ = δr + h δv - (h^2/2) a    δv^+ = δv - h a
 
-    With scale_factor_sigma and attitude_sigma 0 nine states remain. All sigmas and random walks are assumptions of the
-    filter, independent of the sensors'. Samples are processed at every communication point, scalar by scalar: altitude,
-    velocity, position. A scalar whose innovation exceeds innovation_gate of its sigmas is rejected; rejection_limit
-    consecutive rejections of a sensor set the status and, with reacquire, increase the covariance to accept it. With
-    gravity_gradient the gradient of gravity enters the propagation, which matters for long coasts without measurements.
-    In free flight the inertial sensor's errors have no effect.
+    If scale_factor_sigma and attitude_sigma are 0, nine states remain. All sigmas and random walks are assumptions of
+    the filter, independent of the values in the sensors. Samples are processed at every communication point, scalar by
+    scalar: altitude, velocity, position. A scalar is rejected if its innovation exceeds innovation_gate standard
+    deviations; rejection_limit consecutive rejections of a sensor set the status and, with reacquire, increase the
+    covariance so that the sample is accepted. With gravity_gradient the gradient of gravity enters the propagation,
+    which matters for long coasts without measurements. In free flight the inertial sensor's errors have no effect.
 
     Frame: landing site.
 
@@ -140,13 +140,13 @@ class FilteredNavigation(InertialNavigation, interface=True):
         """Propagate the covariance by h (s) under the specific force."""
 
     def weigh(self, row: Matrix, variance: float) -> float:
-        """Return the variance of a scalar's innovation, with the scalar's derivatives with respect to the states in
-        ``row``.
+        """Return the variance of a scalar's innovation; ``row`` contains the scalar's derivatives with respect to
+        the states.
         """
         return 0.0
 
     def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
-        """Update the covariance; return the corrections of the states (a column) by the innovation."""
+        """Update the covariance; return the corrections of the states by the innovation, as a column."""
         return zeros(STATES, 1)
 
     def initialize(self) -> None:
@@ -170,7 +170,9 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
-        """Return the unit vector away from the Moon's centre, and the gravity gradient (1/s2), 0 if it is neglected."""
+        """Return the upward direction and the gravity gradient (1/s2), or 0 instead of the gradient if it is
+        neglected.
+        """
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if self.gravity_gradient and distance > 0.0:
@@ -178,7 +180,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return up, 0.0
 
     def altitude(self, row: Matrix) -> float:
-        """Return the estimated altitude (m); set row to its derivatives with respect to the states."""
+        """Return the estimated altitude (m); set ``row`` to its derivatives with respect to the states."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if distance > 0.0:
@@ -209,7 +211,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return square
 
     def note(self, sensor: int, rejected_before: int) -> None:
-        """Count a processed sample, and its rejection if one of its components was rejected."""
+        """Count a processed sample, and update the sensor's number of consecutive rejections."""
         self.sample_count = self.sample_count + 1
         if self.rejected_count > rejected_before:
             self.rejected_in_a_row[sensor] = self.rejected_in_a_row[sensor] + 1
@@ -254,7 +256,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.note(CAMERA, before)
 
     def publish(self) -> None:
-        """Put sigmas, covariance, bias and status on the outputs."""
+        """Output sigmas, covariance, bias and status."""
         self.status = FilterStatus.GOOD
         self.estimated_bias = self.sensor_errors[0:3, 0]
         for i in range(3):

@@ -8,13 +8,14 @@ from .attitude_observer import AttitudeObserver
 
 
 class FullAttitudeObserver(AttitudeObserver, interface=True):
-    """Observer of all six states with a constant gain on the measured ones: roll, pitch and angular velocity.
+    """Observer of all six states, with a constant gain on the measured states: roll, pitch and angular velocity.
 
     With the measurement matrix C and the unit vector e of yaw, gains have the form
 
         K = M (C^T + e l)
 
-    where the matrix M sets the dynamics of the measured errors, and the row l drives yaw by roll.
+    where the matrix M sets the dynamics of the measured states' errors, and the row l corrects yaw by the roll
+    residual.
     """
 
     gain = State(
@@ -24,13 +25,13 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
     )
 
     def compose(self, m: Matrix, row: list) -> None:
-        """Set gain = m (C' + e row) for m (6 x 6) and a row of five."""
+        """Set gain = m (C' + e row) for a matrix m (6 x 6) and a row of five elements."""
         for i in range(6):
             for j in range(5):
                 self.gain[i, j] = m[i, index_of_measured(j)] + m[i, YAW] * row[j]
 
     def correction(self, s: AttitudeState, roll: float, pitch: float, rates: Vector3) -> AttitudeState:
-        """Return gain (m - C x): the correction of a state x by a sample m (roll, pitch, rates)."""
+        """Return the correction gain (m - C x) of a state x by a sample m (roll, pitch, rates)."""
         missing = [0.0] * 5
         missing[0] = roll - s.angles.x
         missing[1] = pitch - s.angles.z

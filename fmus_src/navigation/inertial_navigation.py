@@ -11,7 +11,7 @@ from ..mathlib.vectors import vector
 class InertialNavigation(Navigation, interface=True):
     """Dead reckoning from velocity increments under central gravity, from an initial estimate with errors.
 
-    With the increment's mean specific force f over h, that of the step before f_b, and gravity g at r and g_1 at r + h
+    With the mean specific force f over the step h and f_b over the previous step, and gravity g at r and g_1 at r + h
     v:
 
         v^+ = v + h (f + (g + g_1)/2)    r^+ = r + h (v + v^+)/2 - (h^2/12) (f - f_b)
@@ -70,7 +70,7 @@ class InertialNavigation(Navigation, interface=True):
         self.inertial_taken = self.inertial_count
 
     def sense(self, h: float) -> None:
-        """Set force (m/s2) to the mean specific force over the last h (s), measured or extrapolated."""
+        """Set ``force`` to the mean specific force (m/s2) over the last h (s), measured or extrapolated."""
         self.since_sample = self.since_sample + h
         self.force_before = self.force
         if self.free_flight:

@@ -7,9 +7,9 @@ from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigation(FilteredNavigation):
-    """Kalman navigation: inertial navigation corrected from altimeter, velocimeter and camera by a Kalman filter.
+    """Inertial navigation corrected by altimeter, velocimeter and camera with a Kalman filter.
 
-    The propagation computes only the blocks of the covariance that change; updates take Joseph's form.
+    The propagation computes only the blocks of the covariance that change; updates use the Joseph form.
     """
 
     def predict(self, h: float) -> None:

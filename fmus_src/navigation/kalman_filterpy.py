@@ -1,4 +1,4 @@
-"""Inertial navigation with a Kalman filter of the library filterpy."""
+"""Inertial navigation with a Kalman filter from the library filterpy."""
 
 from typing import Any
 
@@ -9,9 +9,10 @@ from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigationFilterpy(FilteredNavigation):
-    """Kalman navigation with filterpy's matrices, a second implementation of kalman_navigation in Python only.
+    """Inertial navigation with the Kalman filter of filterpy, a second implementation of kalman_navigation, Python
+    only.
 
-    The filter's state is the correction of the estimate, 0 between updates; its matrices are full.
+    The filter's state is the correction of the estimate and is 0 between updates; the matrices are full.
     """
 
     python_only = True

@@ -12,8 +12,9 @@ from .attitude_navigation import AttitudeNavigation, AttitudeNavigationStatus
 class MultiplicativeFilter(AttitudeNavigation, interface=True):
     """Multiplicative filter: prediction by gyros, correction by a small rotation in body axes and a change of bias.
 
-    The attitude is propagated with the mean of the last two gyro samples minus the bias, or with the last one until the
-    next. With mean rate ω, angle random walk σ_v, rate random walk σ_u and cross-product matrix [·]:
+    The attitude is propagated with the mean of the last two gyro samples minus the bias, or, while no new sample has
+    arrived, with the last sample minus the bias. With mean rate ω, angle random walk σ_v, rate random walk σ_u and
+    cross-product matrix [·]:
 
         δθ' = -[ω] δθ - δb    δb' = 0
         Q_11 = σ_v^2 h + σ_u^2 h^3/3    Q_12 = -σ_u^2 h^2/2    Q_22 = σ_u^2 h
@@ -32,7 +33,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
     turn = body.ROTATION.state("rotation vector since the last update, integrated from the gyros")
 
     def begin(self) -> None:
-        """Initialise the filter, without attitude yet."""
+        """Initialise the filter without an attitude."""
         self.last_time = self.start_time
         self.gyro_counted = self.gyro_count - 1
         sigma = self.first_bias_sigma
@@ -66,7 +67,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
         self.estimated_bias = self.estimated_bias + vector(x[3, 0], x[4, 0], x[5, 0])
 
     def report(self) -> None:
-        """Put angular velocity and standard deviations on the outputs."""
+        """Output angular velocity and standard deviations."""
         self.estimated_angular_velocity = self.rate - self.estimated_bias
         self.attitude_sigma = standard_deviations(self.covariance, 0)
         self.bias_sigma = standard_deviations(self.covariance, 3)

@@ -23,10 +23,10 @@ class NoisyNavigation(Navigation):
 
         v^+ = v + (f + g) h    r^+ = r + v h + (f + g) h^2/2
 
-    Fixes count from the start, at most one of each kind at a communication point. The initial estimate is the truth
-    with errors of first_position_sigma and first_velocity_sigma. A sigma of 0 switches its sensor off; with both off
-    the estimate is the truth. The slot's sensor inputs and central gravity are not used. In free flight specific force
-    is 0.
+    Fixes follow one another in their periods from the start on, with at most one of each kind at a communication point.
+    The initial estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A sigma of 0
+    switches its sensor off; with both off the estimate is the truth. The sensor inputs of the slot and central gravity
+    are not used. In free flight the specific force is 0.
 
     Frame: landing site.
 
@@ -99,7 +99,9 @@ class NoisyNavigation(Navigation):
         self.estimate[VELOCITY, 0] += acceleration * h
 
     def fix(self, first: int, truth: Vector3, sigma: float) -> None:
-        """Measure three states from index ``first`` on, with errors of sigma, and update the estimate."""
+        """Measure the three states from index ``first`` on, with errors of standard deviation sigma, and update the
+        estimate.
+        """
         for i in range(3):
             row = zeros(1, 6)
             row[0, first + i] = 1.0
@@ -110,7 +112,7 @@ class NoisyNavigation(Navigation):
         self.sample_count = self.sample_count + 1
 
     def publish(self) -> None:
-        """Put estimate and standard deviations on the outputs."""
+        """Output estimate and standard deviations."""
         self.estimated_position = self.estimate[POSITION, 0]
         self.estimated_velocity = self.estimate[VELOCITY, 0]
         sigmas = [0.0] * 6
@@ -125,7 +127,7 @@ class NoisyNavigation(Navigation):
                 k = k + 1
 
     def pass_truth(self) -> None:
-        """Set the estimate to the true motion, as both sensors are off."""
+        """Set the estimate to the true motion, for both sensors switched off."""
         self.sample_count = self.sample_count + 1
         self.estimated_position = self.position
         self.estimated_velocity = self.velocity

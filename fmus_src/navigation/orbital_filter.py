@@ -18,14 +18,14 @@ BIASES = block(3, 3)  # after the angles in the covariance
 class OrbitalFilter(AttitudeObserver):
     """Extended Kalman filter of angles and gyro biases, propagated by the gyros.
 
-    Over a sample period the mean of two gyro samples minus the bias rotates the angles, plus the error of that mean for
-    a pulse of length τ and sign s with torque M:
+    Over a sample period the angles are propagated with the mean of two gyro samples minus the bias, plus a correction c
+    of this mean for a pulse of length τ and sign s with torque M:
 
         c = J^-1 M s τ (T - τ)/(2 T)
 
-    Roll and pitch correct angles and biases. Rates follow the pulses and are corrected by the gyros with rate_gain. Yaw
-    and the roll gyro's bias over ω_0 are indistinguishable while yaw is small: the accuracy of their sum is limited by
-    the initial bias unless the body rotates about yaw.
+    Roll and pitch correct angles and biases. Rates are propagated by the pulses and corrected by the gyros with
+    rate_gain. While yaw is small, it is indistinguishable from the roll gyro's bias over ω_0: the initial bias limits
+    the accuracy of the yaw estimate unless the body rotates about the yaw axis.
 
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3. See docs/systems/orbital_attitude.md.
     """
@@ -52,7 +52,9 @@ class OrbitalFilter(AttitudeObserver):
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
-        """Propagate the covariance over a sample period, linearised at angles (rad) and rates (rad/s) of its middle."""
+        """Propagate the covariance over a sample period, linearised at the angles (rad) and rates (rad/s) in its
+        middle.
+        """
         period = self.sample_period
         by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
         f = identity(6)  # 1 + T df/dx, with rates minus biases
@@ -88,7 +90,9 @@ class OrbitalFilter(AttitudeObserver):
         self.bias = x[BIASES, 0]
 
     def coning_correction(self) -> Vector3:
-        """Return the error (rad/s, body) by pulses of the mean of the rates at both ends of a sample period."""
+        """Return the mean angular velocity (rad/s, body) over a sample period with pulses minus the mean of the
+        rates at both ends.
+        """
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
@@ -109,7 +113,7 @@ class OrbitalFilter(AttitudeObserver):
         self.estimate = carried
 
     def bound(self) -> None:
-        """Set gyro bias and standard deviation of yaw; yaw itself is not limited."""
+        """Set the gyro bias and the standard deviation of yaw; yaw itself is not limited."""
         self.estimated_gyro_bias = self.bias
         variance = self.covariance[YAW, YAW]
         if variance > 0.0:

@@ -8,14 +8,15 @@ from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverContinuous(FullAttitudeObserver):
-    """Continuous full-order observer with the sample m held over a sample period.
+    """Continuous full-order observer, in which the sample m is constant over a sample period.
 
     With yaw_pole λ and measured_pole μ:
 
         x' = f(x, u) + K (m - C x)    K = (A + μ) (C^T + e l)    l = (-λ/ω_0, 0, 0, 0, 0)
 
-    The linear errors have the poles -λ once and -μ five times. Integration over a sample period is one step of
-    Runge-Kutta of fourth order under the mean torque or, with split, between the switching times of the jets.
+    The linearised errors have the pole -λ once and the pole -μ five times. A sample period is one step of the
+    fourth-order Runge-Kutta method under the mean torque or, with split, one step between any two switching times of
+    the jets.
 
     Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """

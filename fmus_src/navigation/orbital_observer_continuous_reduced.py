@@ -6,12 +6,12 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverContinuousReduced(AttitudeObserver):
-    """Continuous observer of reduced order for yaw; the other states are as measured.
+    """Continuous reduced-order observer for yaw; the other states are taken as measured.
 
         ψ = z + l γ    l = -λ/ω_0    z' = f - λ z
 
-    with reduced_yaw_pole λ. f contains all nonlinear and measured terms and is held over a sample period at the mean of
-    its two samples, which gives an exact solution without knowledge of torque or inertia.
+    with reduced_yaw_pole λ. f contains all nonlinear and measured terms; with f constant over a sample period,
+    evaluated at the mean of its two samples, the solution is exact. It needs neither torque nor inertia.
 
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """

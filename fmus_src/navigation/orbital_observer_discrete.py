@@ -8,15 +8,16 @@ from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverDiscrete(FullAttitudeObserver):
-    """Discrete full-order observer with the motion F over a sample period.
+    """Discrete full-order observer that propagates the estimate by the motion F over a sample period.
 
     With yaw_pole λ, measured_pole μ and the unit vector e of yaw:
 
         A_d = exp(A T)    x^+ = F(x) + K (m - C F(x))    K = (1 - exp(-μ T) A_d^-1) (C^T + e l)
         l = (A_yaw - exp(-λ T)) c^T/(c^T c)    c = C A_d e
 
-    with the yaw element A_yaw of A_d. The linear errors have the multipliers exp(-μ T) five times and exp(-λ T) once. F
-    is one step of Runge-Kutta of fourth order under the mean torque or, with split, between any two switching times.
+    with A the linearised motion and A_yaw the diagonal element of A_d for yaw. The linearised errors have the
+    multiplier exp(-μ T) five times and exp(-λ T) once. F is one step of the fourth-order Runge-Kutta method under the
+    mean torque or, with split, one step between any two switching times.
 
     Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """

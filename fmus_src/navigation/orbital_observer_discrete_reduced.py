@@ -6,14 +6,15 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverDiscreteReduced(AttitudeObserver):
-    """Discrete observer of reduced order: yaw by the motion over a sample period, corrected by the roll residual.
+    """Discrete reduced-order observer: yaw propagated by the motion over a sample period, corrected by the roll
+    residual.
 
-    From the last estimate, with measured states as measured, the motion F gives yaw and roll:
+    From the last estimate of yaw and the measured values of the other states, the motion F gives yaw ψ_F and roll γ_F:
 
         ψ^+ = ψ_F - (1 - exp(-λ T)) (γ_m - γ_F)/(ω_0 T)
 
-    with reduced_yaw_pole λ. F is one step of Runge-Kutta of fourth order under the mean torque or, with split, between
-    any two switching times.
+    with reduced_yaw_pole λ. F is one step of the fourth-order Runge-Kutta method under the mean torque or, with split,
+    one step between any two switching times.
 
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """

@@ -16,15 +16,15 @@ class Stage(Enumeration):
 
 
 class OrbitalSequence(AttitudeObserver):
-    """Sequence without observer: levelling with yaw 0, yaw from the mean roll rate, then propagation.
+    """Sequence without an observer: levelling with yaw 0, yaw from the mean roll rate, then propagation.
 
         ψ = (∫ ω_x dt - Δγ)/(ω_0 Δt)
 
-    Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate is integrated; the part
-    that roll has not turned gives yaw. From then on yaw is propagated by the motion, pulse by pulse, without
-    correction. Angles and rates are as measured.
+    Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate ω_x is integrated; its
+    difference from the change Δγ of roll over the time Δt gives yaw. From then on yaw is propagated by the motion,
+    pulse by pulse, without correction. The other angles and the rates are the measured ones.
 
-    It is the baseline of the observers. See docs/systems/orbital_attitude.md.
+    This conventional procedure is the baseline for the observers. See docs/systems/orbital_attitude.md.
     """
 
     levelling_end = Parameter(
@@ -40,11 +40,11 @@ class OrbitalSequence(AttitudeObserver):
     turned = State(0.0, unit="rad", description="integral of the measured roll rate since the start of averaging")
 
     def due(self, time: float) -> bool:
-        """Return True if the sample nearest to a time (s after the start) has been reached."""
+        """Return True if the sample nearest to ``time`` (s after the start) has been reached."""
         return self.ticks >= math.floor(time / self.sample_period + 0.5)
 
     def average(self) -> float:
-        """Return the yaw (rad) of the averaging stage, 0 until it ends."""
+        """Return the yaw (rad) from the averaging stage; 0 until it ends."""
         elapsed = float(self.ticks - self.last_tick) * self.sample_period
         self.turned = self.turned + 0.5 * elapsed * (self.last_rates.x + self.measured_angular_velocity.x)
         if not self.due(self.averaging_end):

@@ -8,12 +8,12 @@ from ..mathlib.vectors import cross, dot, norm
 
 
 class PointingMonitor(Block):
-    """Monitor of attitude errors against reference and target; ends the simulation after sufficient pointing.
+    """Monitor of attitude errors relative to reference and target; ends the simulation after sufficient pointing.
 
-    half_cone is the angle of the boresight from that of the reference, knowledge_error the rotation from the true to
-    the estimated attitude. The satellite points while pointing_error is within angle_limit and the angular velocity
-    within rate_limit. settling_time is the start of the present pointing interval, or the present time outside one;
-    finished after hold_time of pointing.
+    half_cone is the angle between the boresight and the boresight of the reference attitude; knowledge_error is the
+    rotation from the true to the estimated attitude. The satellite is pointing while pointing_error is within
+    angle_limit and the angular velocity within rate_limit. settling_time is the start of the present pointing interval,
+    or the present time outside such an interval; finished becomes true after hold_time of pointing.
 
     Frame: body.
 
@@ -77,7 +77,7 @@ class PointingMonitor(Block):
         self.compare(self.start_time)
 
     def compare(self, time: float) -> None:
-        """Compare the true motion at time (s) with reference and target."""
+        """Compare the true motion at ``time`` (s) with reference and target."""
         self.attitude_error = to_rotation_vector(difference(self.reference_quaternion, self.quaternion))
         self.pointing_error = norm(to_rotation_vector(difference(self.target_quaternion, self.quaternion)))
         self.knowledge_error = to_rotation_vector(difference(self.quaternion, self.estimated_quaternion))

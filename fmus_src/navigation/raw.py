@@ -9,8 +9,8 @@ class RawNavigation(InertialNavigation):
     """Dead reckoning in which each fix replaces the estimate.
 
     A position fix replaces the position, a velocity fix the velocity; an altitude moves the position along the local
-    vertical to that altitude. Of samples at the same time, the position fix is used last. Sigmas and covariance are 0
-    (unknown).
+    vertical to that altitude. Among samples at the same time, the position fix is used last. Sigmas and covariance are
+    0 (unknown).
     """
 
     def initialize(self) -> None:

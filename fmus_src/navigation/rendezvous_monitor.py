@@ -21,11 +21,11 @@ class ClosingStart(Enumeration):
 class RendezvousMonitor(Block):
     """Monitor of relative position, range and attitude errors against the plan, with modified Rodrigues parameters.
 
-    position_error is the planned minus the true relative position. The closing begins when the range first falls to
-    closing_range; the robot shall then be in a cone with its apex at the object's centre and its axis against the
+    position_error is the planned minus the true relative position. Closing begins when the range first falls to
+    closing_range; the robot shall then be in a cone with its apex at the object's centre and its axis opposite to the
     object's velocity.
 
-    Frames: inertial; body for errors of attitude.
+    Frames: inertial; body for attitude errors.
 
     See docs/systems/robot_rendezvous.md.
     """
@@ -102,8 +102,8 @@ class RendezvousMonitor(Block):
         self.rodrigues = to_rodrigues(self.quaternion)
 
     def check_cone(self, relative: Vector3) -> None:
-        """Set cone_angle for the position (m) of the robot relative to the object, and closing_start when closing
-        begins.
+        """Set cone_angle for the robot's position (m, inertial) relative to the object, and closing_start when
+        closing begins.
         """
         self.cone_angle = atan2(norm(cross(relative, self.target_velocity)), dot(relative, self.target_velocity))
         if self.closing_start != ClosingStart.AWAITED or self.range > self.closing_range:

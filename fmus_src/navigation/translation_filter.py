@@ -1,4 +1,4 @@
-"""Filter of measured relative positions for position and velocity errors relative to a plan."""
+"""Filter of measured relative positions for errors of position and velocity relative to a plan."""
 
 import math
 
@@ -22,19 +22,19 @@ AT_ONCE = (
 
 
 class TranslationFilter(Block):
-    """Filter of the robot's position and velocity error against its plan.
+    """Filter of the robot's errors of position and velocity relative to its plan.
 
-    method 0: mean of the samples since the last sample of translation control; the velocity is the difference of the
-    last two means over the time between them.
+    method 0: mean of the samples since the last sample of translation control; the velocity error is the difference of
+    the last two means divided by the time between them.
 
-    method 1: Kalman filter of position x and velocity v, equal for all inertial axes, propagated by the commanded force
-    P of the jets minus the planned acceleration:
+    method 1: Kalman filter of the position error x and velocity error v, equal for all inertial axes, propagated by the
+    commanded force P of the jets minus the planned acceleration:
 
         x' = v    v' = R(q) P/m - a_p + w    S_w = process_noise + (ε P/m)^2 τ
 
-    with force_error ε and force_error_time τ. allocated_force is that of the last step. Measurement errors are
-    near_sigma below near_range. Samples that are not finite are skipped and reported; without an attitude the force
-    acts along the last one.
+    with force_error ε and force_error_time τ. w is white noise of spectral density S_w. allocated_force refers to the
+    last step. The standard deviation of a measurement is far_sigma, and near_sigma at ranges below near_range. Samples
+    that are not finite are skipped and reported; without a valid attitude the last valid one rotates the force.
 
     Frames: inertial, except for the force, in body axes.
 
@@ -130,7 +130,7 @@ class TranslationFilter(Block):
             self.last_quaternion = self.quaternion
 
     def sigma_now(self) -> float:
-        """Return the standard deviation (m) of a sample at the distance of the last one."""
+        """Return the standard deviation (m) of a sample at the range of the last sample."""
         if norm(self.relative_position) < self.near_range:
             return self.near_sigma
         return self.far_sigma
@@ -182,7 +182,7 @@ class TranslationFilter(Block):
         self.velocity_error = self.velocity_error + gain[RATE, 0] * innovation
 
     def put_out_mean(self, time: float) -> None:
-        """Output the mean since the last translation control sample, at ``time`` (s)."""
+        """Output the mean of the samples since the last sample of translation control, at ``time`` (s)."""
         if self.summed == 0:
             return
         elapsed = time - self.tick_time
@@ -196,7 +196,7 @@ class TranslationFilter(Block):
         self.tick_time = time
 
     def publish(self) -> None:
-        """Put the standard deviations on the outputs."""
+        """Output the standard deviations."""
         if self.method != FilterMethod.MEAN:
             self.position_error_sigma = math.sqrt(self.covariance[TRACKED, TRACKED])
             self.velocity_error_sigma = math.sqrt(self.covariance[RATE, RATE])

@@ -1,4 +1,4 @@
-"""Lander over the Moon with a thrust axis turned by commanded angular accelerations."""
+"""Lander over the Moon; commanded angular accelerations turn its thrust axis."""
 
 from ..block import Parameter
 from ..interfaces.ports import landing
@@ -20,13 +20,13 @@ class AttitudeMoonLander(MoonLander):
 
         d' = ω × d    ω' = α - (α · d) d
 
-    α is limited to maximum_angular_acceleration and held over the communication step. Thrust is thrust_factor times the
-    command, with lag and burn end as in `moon_lander`, and 0 from dry_mass on. Gravity is central, or uniform along -z
-    if uniform_gravity is not 0; altitude is then z. When altitude is 0 or less at the end of an internal step, position
-    and velocity are set back to altitude 0 with the step's mean acceleration and held. An initial attitude of length 0
-    is the z axis.
+    α is limited to maximum_angular_acceleration and constant over the communication step. Thrust is thrust_factor times
+    the command, with lag and end of burn as in `moon_lander`; it is 0 once the mass has fallen to dry_mass. Gravity is
+    central, or uniform along -z if uniform_gravity is not 0; altitude is then z. When the altitude is 0 or less at the
+    end of an internal step, position and velocity are moved back to altitude 0 with the step's mean acceleration and
+    stay constant from then on. An initial attitude of length 0 is replaced by the z axis.
 
-    Attitude is integrated by Runge-Kutta of fourth order, two steps in each internal one.
+    Attitude is integrated by the fourth-order Runge-Kutta method, with two steps in each internal step.
 
     See docs/systems/hover_transfer.md.
     """
@@ -83,7 +83,7 @@ class AttitudeMoonLander(MoonLander):
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def vertical(self) -> Vector3:
-        """Return the upward local vertical, a unit vector."""
+        """Return the upward local vertical as a unit vector."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, 1.0)
         return vertical_at(self.position, self.moon_radius)
@@ -101,7 +101,7 @@ class AttitudeMoonLander(MoonLander):
         return thrust.impulse
 
     def thrusting_time(self, h: float, commanded: float) -> float:
-        """Return the part of h (s) for which the propellant suffices under a commanded thrust (N)."""
+        """Return the time (s), at most h, for which the propellant lasts under a commanded thrust (N)."""
         allowed = (self.mass - self.dry_mass) * STANDARD_GRAVITY * self.specific_impulse
         if not self.impulse(h, commanded) > allowed:
             return h
@@ -116,7 +116,9 @@ class AttitudeMoonLander(MoonLander):
         return low
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Advance the motion by h (s) under one commanded thrust (N); return the velocity gained by thrust (m/s)."""
+        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained by thrust
+        (m/s).
+        """
         lasting = 0.0
         gained = vector(0.0, 0.0, 0.0)
         before = self.velocity
@@ -136,7 +138,9 @@ class AttitudeMoonLander(MoonLander):
         return gained
 
     def go_back(self, h: float, acceleration: Vector3) -> None:
-        """Move back from below the ground to altitude 0, by at most h (s), with the step's mean acceleration (m/s2)."""
+        """Move the vehicle back from below the ground to altitude 0, by at most h (s), with the step's mean
+        acceleration (m/s2).
+        """
         below = self.position
         last = self.velocity
         back = 0.0

@@ -15,7 +15,8 @@ class DriftingTarget(Block):
 
         r = r_0 + v t    q = (cos(Ω t/2), e sin(Ω t/2))
 
-    The solution is exact at any time. Body axes are inertial at the start; a spin_axis of length 0 means no spin.
+    The solution is exact at any time. Body axes are aligned with the inertial axes at the start; a spin_axis of length
+    0 means no spin.
 
     Frame: inertial.
 

@@ -36,7 +36,7 @@ AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNO
 
 
 class CapsuleStatus(Enumeration):
-    """Validity of tables and inertia."""
+    """Validity of the aerodynamic tables and of the inertia."""
 
     GOOD = member("good")
     BEYOND_TABLES = member("beyond the tables")
@@ -73,10 +73,12 @@ class EntryCapsule(Block):
         F_air = p S (-C_x, -C_y v_y/s, -C_y v_z/s)    s = |(v_y, v_z)|    M_air = d × F_air + m_q p S l^2 ω/|v|
 
     Axial and normal coefficients C_x, C_y are splines in the spatial angle of attack, linear in Mach number; beyond the
-    tables the last values hold, with status 1. The atmosphere is a standard one times density_factor, moved by wind.
+    tables the coefficients keep their last values and the status is 1. The air has the density of a standard atmosphere
+    times density_factor and moves with the wind.
 
     A change of pulse_count signals new pulses, which replace the remaining ones at once and end exactly, whatever the
-    communication step. mean_torque is added to them. Runge-Kutta of fourth order in steps of at most internal_step.
+    communication step. mean_torque is added to them. The motion is integrated by the fourth-order Runge-Kutta method in
+    steps of at most internal_step.
 
     Frames: velocity (x along the velocity, y up in the vertical plane through it, z = x × y); body (x along the axis of
     symmetry, out through the heat shield), rotated from velocity axes by bank, sideslip and angle of attack.
@@ -225,7 +227,7 @@ class EntryCapsule(Block):
         self.publish()
 
     def coefficient(self, values: Matrix, second: Matrix, mach: float, angle: float) -> float:
-        """Return a coefficient at a Mach number and a total angle of attack (rad)."""
+        """Return an aerodynamic coefficient at a Mach number and a total angle of attack (rad)."""
         if mach <= self.mach_numbers[0]:
             return cubic_value(values, second, 0, KNOTS, ANGLE_STEP, angle)
         if mach >= self.mach_numbers[MACHS - 1]:
@@ -241,15 +243,13 @@ class EntryCapsule(Block):
         return below + fraction * (above - below)
 
     def standard_air(self, h: float) -> Air:
-        """Return density and speed of sound of the standard atmosphere at the height h (m)."""
+        """Return the standard atmosphere's density and speed of sound at the height h (m)."""
         if self.atmosphere == Atmosphere.GOST_4401_81:
             return gost_air(h)
         return air(h)
 
     def spatial_angle(self, v: Vector3) -> float:
-        """Return the total angle of attack (rad) between the axis of symmetry and the velocity v relative to the air
-        (body).
-        """
+        """Return the angle (rad) between the axis of symmetry and the velocity v relative to the air (m/s, body)."""
         return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
 
     def air_force(self, v: Vector3, gas: Air) -> Vector3:
@@ -296,8 +296,8 @@ class EntryCapsule(Block):
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:
-        """Return the torque (N m) of an axis' two jets (by index) at ``time`` (s) after the start of a signed pulse
-        (s).
+        """Return the torque (N m) of the two jets of an axis at ``time`` (s) after the start of a pulse of signed
+        ``length`` (s).
         """
         if length > time:
             return self.jet_factor[positive] * self.jet_torque[positive]
@@ -306,7 +306,7 @@ class EntryCapsule(Block):
         return 0.0
 
     def fly(self, t: float, h: float) -> None:
-        """Advance the motion by h (s), divided at each end of a pulse."""
+        """Advance the motion by h (s), divided where a pulse ends."""
         time = 0.0
         while time < h:
             end = next_switch_off(self.left, time, h)
@@ -320,7 +320,7 @@ class EntryCapsule(Block):
             time = end
 
     def publish(self) -> None:
-        """Put the state out."""
+        """Set the outputs from the state."""
         s = self.state
         self.height = s.radius - self.earth_radius
         self.longitude = s.longitude

@@ -11,8 +11,9 @@ class FlatMoonLander(Block):
 
         r'' = (F/m) d(t)/|d(t)| - g k    d(t) = d_0 + d_0' (t - t_command)
 
-    Thrust ends at command_time + burn_duration, if necessary within a step. Mass is constant. Runge-Kutta of fourth
-    order in fixed steps; as the acceleration depends on time only, it reduces to Simpson's rule.
+    Thrust ends at command_time + burn_duration, if necessary within a step. Mass is constant. The motion is integrated
+    by the fourth-order Runge-Kutta method in fixed steps; since the acceleration depends only on time, the method
+    reduces to Simpson's rule.
 
     Frame: landing site (x north, y west, z up).
 

@@ -14,7 +14,7 @@ from ..mathlib.vectors import Vector3, Vector4, clip, vector
 
 
 class RobotRotation(Record):
-    """Rotation of the robot or its time derivative."""
+    """Attitude and angular momentum of the robot, or their time derivatives."""
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     angular_momentum = Field(
@@ -36,11 +36,12 @@ class FreeFlyingRobot(Block):
 
         G' = R(q) M    ω = J^-1 (R(q)^T G - H)    H = h_g h(β)
 
-    so that G is constant to the bit without jets. Gimbals follow the commanded rates without lag. Thrusts are limited
-    to 0 to maximum_thrust and scaled by 1 + thrust_error n, with a normal number n per jet, constant over a simulation.
+    so that G is exactly constant without jets. Gimbals follow the commanded rates without lag. Thrusts are limited to 0
+    to maximum_thrust and scaled by 1 + thrust_error n, with a normal number n per jet, constant over a simulation.
 
-    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step: results are equal
-    to the bit for all communication steps that are multiples of an internal_step which is a power of two.
+    The motion is integrated by the fourth-order Runge-Kutta method in steps of internal_step, or in equal parts of the
+    communication step. If internal_step is a power of two, all communication steps that are multiples of it give the
+    same results bit for bit.
 
     Frames: body, principal axes with the origin at the centre of mass; inertial.
 
@@ -150,8 +151,8 @@ class FreeFlyingRobot(Block):
         """Advance the motion by h (s) under the force and torque of the jets.
 
         The stages of `runge_kutta_4` are written out, since the gimbals advance by h/2 between them and r'' is
-        integrated by Nystrom's formula from the forces of all stages. As derivatives of one state, both would be
-        rounded differently.
+        integrated by Nystrom's formula from the forces of all stages. A single state with both would be rounded
+        differently.
         """
         s1 = RobotRotation(quaternion=self.quaternion, angular_momentum=self.angular_momentum)
         k1 = self.derivatives(s1)

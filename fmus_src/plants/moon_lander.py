@@ -11,7 +11,7 @@ from ..mathlib.vectors import Vector3, norm, vector
 
 
 class Burn(Record):
-    """Thrust acceleration over a step and the velocity gained."""
+    """Thrust acceleration over a step, and the velocity gained."""
 
     start = Field(unit="m/s2", description="thrust acceleration at the start of the step")
     middle = Field(unit="m/s2", description="thrust acceleration in the middle of the step")
@@ -20,7 +20,7 @@ class Burn(Record):
 
 
 def scale(burn: Burn, simpson: float) -> Burn:
-    """Return the burn scaled to its gain, from its integral ``simpson`` (m/s) by Simpson's rule."""
+    """Return the burn scaled so that its integral by Simpson's rule, now ``simpson`` (m/s), equals its gain."""
     return Burn(
         start=burn.start * burn.gain / simpson,
         middle=burn.middle * burn.gain / simpson,
@@ -36,12 +36,12 @@ class MoonLander(Block, interface=True):
 
         r'' = -μ r/|r|^3 + (F/m) d    m' = -F/(g_0 I_sp)    F' = (F_c - F)/τ_F
 
-    F_c is `thrust` until command_time + burn_duration and 0 from there on, inside a step if need be; thrust ends where
-    no mass is left. Thrust and mass are exact between switchings. Motion is integrated by a Runge-Kutta-Nyström method
-    of fourth order, with thrust scaled so that each step obeys the rocket equation. With ground_contact set the motion
-    is held.
+    F_c is `thrust` until command_time + burn_duration, if necessary within a step, and then 0; thrust ends when no mass
+    is left. Thrust and mass are exact between switching times. Motion is integrated by a Runge-Kutta-Nyström method of
+    fourth order, with thrust scaled so that each step obeys the rocket equation. After ground contact the motion is
+    frozen.
 
-    A plant of this slot defines `turn`, its attitude, and may override `move`, `height` and `gravity`.
+    A plant of this slot defines `turn`, which advances the attitude, and may override `move`, `height` and `gravity`.
 
     Frame: landing site (x north, y west, z up), with the Moon's centre at (0, 0, -moon_radius).
 
@@ -92,8 +92,8 @@ class MoonLander(Block, interface=True):
         self.ground_contact = self.altitude <= 0.0
 
     def divide(self, response: float) -> None:
-        """Set longest_step to an equal part of internal_step, at least 1/100, not longer than lag and response (s; 0:
-        none).
+        """Set longest_step to the largest equal part of internal_step that exceeds neither the thrust lag nor
+        ``response`` (s; 0: none), but at least to 1/100.
         """
         shortest = self.internal_step
         if response > 0.0 and response < shortest:
@@ -132,7 +132,9 @@ class MoonLander(Block, interface=True):
         return Burn(start=first, middle=middle, end=thrust.end / self.mass, gain=gain)
 
     def advance(self, t: float, h: float, commanded: float) -> Vector3:
-        """Advance the motion by h (s) under one commanded thrust (N); return the velocity gained by thrust (m/s)."""
+        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained by thrust
+        (m/s).
+        """
         burn = self.burn(h, commanded)
         simpson = h * (burn.start + 4.0 * burn.middle + burn.end) / 6.0
         if simpson > 0.0:
@@ -156,9 +158,7 @@ class MoonLander(Block, interface=True):
             self.delivered_thrust = 0.0
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Perform an internal step of h (s) under one commanded thrust (N); return the velocity gained by thrust
-        (m/s).
-        """
+        """Perform an internal step of h (s) under a constant commanded thrust (N); return the velocity gained (m/s)."""
         gained = self.advance(t, h, commanded)
         self.touch()
         return gained
@@ -168,7 +168,7 @@ class MoonLander(Block, interface=True):
         return not self.ground_contact
 
     def burn_ended(self) -> None:
-        """React to the end of a burn within a step."""
+        """React to the end of a burn within a step; no action unless overridden."""
 
     def fly(self, t: float, h: float, commanded: float) -> None:
         """Advance from t to t + h (s) under a commanded thrust (N), and set the outputs of the motion."""

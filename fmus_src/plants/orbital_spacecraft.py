@@ -19,9 +19,9 @@ class OrbitalSpacecraft(OrbitalBody):
     """Rigid body on a circular orbit under the gravity gradient, with jets that give pure torques in pulses.
 
     A change of pulse_count signals new pulses, which replace the remaining ones at once; the pulses at the start count
-    as new. Pulses end exactly, whatever the communication step; between these instants Runge-Kutta of fourth order in
-    steps of at most internal_step. mean_torque is added to the pulses and constant over the step, for studies of the
-    mean motion. Jets have no rise time.
+    as new. Pulses end exactly, whatever the communication step; between their ends the motion is integrated by the
+    fourth-order Runge-Kutta method in steps of at most internal_step. For studies of the mean motion, mean_torque,
+    constant over a step, is added to the pulses. Jets have no rise time.
 
     See docs/systems/orbital_attitude.md.
     """
@@ -60,7 +60,7 @@ class OrbitalSpacecraft(OrbitalBody):
             self.status = SpacecraftStatus.NO_INERTIA
 
     def after(self, length: float, h: float) -> float:
-        """Return the remaining signed length (s) of one pulse after h (s)."""
+        """Return the signed length (s) that remains of a pulse after h (s)."""
         if length > h:
             return length - h
         if length < -h:
@@ -68,7 +68,7 @@ class OrbitalSpacecraft(OrbitalBody):
         return 0.0
 
     def size(self, pulses: Vector3) -> float:
-        """Return the sum of the lengths of three pulses (s)."""
+        """Return the sum of the magnitudes of three signed pulse lengths (s)."""
         return abs(pulses.x) + abs(pulses.y) + abs(pulses.z)
 
     def step(self, t: float, h: float) -> None:

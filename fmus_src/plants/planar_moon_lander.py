@@ -11,7 +11,7 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 
 
 class PlanarMotion(Record):
-    """Motion over a spherical Moon, in local vertical axes."""
+    """Motion over a spherical Moon, with vertical and horizontal velocity components."""
 
     vertical_speed = Field(
         unit="m/s", description="component of the velocity along the local vertical, positive upwards"
@@ -29,12 +29,13 @@ class PlanarMoonLander(Block):
         V' = W cos(u - θ) - g cos θ    θ' = (W sin(u - θ) + g sin θ)/V    h' = V cos θ
         φ' = V sin θ/R    m' = -F/(g_0 I_sp)    g = g_s (R_0/R)^2
 
-    They are integrated in vertical and horizontal velocity, where they are regular at V = 0:
+    The equations are integrated for the vertical and horizontal velocities, for which they are regular at V = 0:
 
         v_z' = W cos u - g    v_x' = W sin u
 
     `curvature` adds v_x^2/R and -v_z v_x/R, the rotation of the local vertical, which the published equations omit. On
-    the ground the motion is held. Thrust ends where no mass is left. Runge-Kutta of fourth order in fixed steps.
+    the ground the motion is frozen. Thrust ends when no mass is left. The integration uses the fourth-order Runge-Kutta
+    method in fixed steps.
 
     Assumes attitude and engine without lag, and a Moon without rotation.
 
@@ -119,7 +120,7 @@ class PlanarMoonLander(Block):
         self.load_factor = force / (STANDARD_GRAVITY * self.mass)
 
     def publish(self) -> None:
-        """Set the outputs of the motion; the path angle is unwrapped, and held at a speed of 0."""
+        """Set the outputs of the motion; the path angle is unwrapped, and keeps its last value at a speed of 0."""
         s = self.motion
         self.altitude = s.altitude
         self.central_angle = s.central_angle

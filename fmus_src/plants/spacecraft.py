@@ -18,7 +18,7 @@ FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then ad
 
 
 class SpacecraftStatus(Enumeration):
-    """Last limit reached by the spacecraft."""
+    """Validity of the motion, and limits reached."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
@@ -33,7 +33,7 @@ class SpacecraftStatus(Enumeration):
 
 
 class SpacecraftMotion(Record):
-    """Motion of spacecraft, wheels and modes, or its time derivative."""
+    """Motion of spacecraft, wheels and modes, or the time derivative of this motion."""
 
     position = Field(Vector3, unit="m", frame="inertial", description="position of the centre of mass")
     velocity = Field(Vector3, unit="m/s", frame="inertial", description="velocity of the centre of mass")
@@ -54,7 +54,7 @@ class SpacecraftMotion(Record):
 
 
 class StepInputs(Record):
-    """Inputs over a step, checked to be finite."""
+    """Inputs over a step, with values that are not finite replaced by 0."""
 
     motors = Field(Vector4, unit="N.m", description="commanded torque of each motor on its wheel about the spin axis")
     dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded magnetic dipole moment, within its limit")
@@ -69,7 +69,7 @@ class StepInputs(Record):
 
 
 class Loads(Record):
-    """Forces and torques at one instant, without gravity."""
+    """Forces, except gravity, and torques at one instant."""
 
     force = Field(Vector3, unit="N", frame="body", description="force on the body without gravity")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque about the undeformed centre of mass")
@@ -84,7 +84,7 @@ class Loads(Record):
 class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
     """Orbit, attitude, four reaction wheels and up to four modes under gravity, air, sunlight and the magnetic field.
 
-    With angular momentum G of the whole in inertial axes, wheel axes A, wheel momenta h, modal momenta p,
+    With total angular momentum G in inertial axes, wheel axes A, wheel momenta h, modal displacements η and momenta p,
     participations L and D, mass M, M_e = 1 - L^T L/M and the shift c = L η/M of the centre of mass:
 
         r' = v    v' = g(r, t) + R(q) F/M + a_ext    q' = q ω/2    G' = R(q) (T - c × F)
@@ -92,17 +92,17 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         h' = u    η' = M_e^-1 (p - D^T ω)    p' = -L^T F/M - 2 ζ W η' - W^2 η
         T = Σ r_k × F_k + (3 μ/|r|^3) e × (I e) + (m + m_r) × B + T_body
 
-    F is the sum of drag, solar pressure and body_force; e the direction of r, m and m_r the commanded and the residual
-    dipole. Without torque G is constant to the bit. All forces are evaluated in the stages of the integration; axes of
-    the pole, Sun and Moon are those of the middle of the step. Runge-Kutta of fourth order in steps of internal_step,
-    or equal parts of the communication step.
+    F is the sum of drag, solar pressure and body_force, e is the direction of r, and m and m_r are the commanded and
+    the residual dipole. Without torque G is exactly constant. The motion is integrated by the fourth-order Runge-Kutta
+    method in steps of internal_step, or in equal parts of the communication step. Forces are evaluated at every stage;
+    the pole axes, Sun and Moon are evaluated once, for the middle of the step.
 
-    To exchange a model, derive a class and override `gravity`, `air_density`, `air_velocity`, `surface_load`,
+    To replace a model, derive a class and override `gravity`, `air_density`, `air_velocity`, `surface_load`,
     `flux_density` or `further_torque`.
 
     Frames: inertial (GCRS axes, origin at the body's centre); body (origin at the undeformed centre of mass).
 
-    Assumes constant mass and an inertia of the whole at rest, wheels included as if not spinning and modes as if rigid.
+    Assumes constant mass, and an inertia that includes the wheels, not spinning, and the modes, undeformed.
 
     Source: Montenbruck and Gill 2000; Likins 1970; Schaub and Junkins 2018. See docs/systems/earth_pointing.md.
     """
@@ -213,7 +213,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         return vector(0.0, 0.0, 0.0)
 
     def loads(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> Loads:
-        """Return all forces and torques except gravity."""
+        """Return all forces except gravity, and all torques."""
         surface = self.surface_load(t, s.position, s.velocity, s.quaternion)
         position_body = to_body(s.quaternion, s.position)
         disturbance = surface.torque + gravity_gradient_torque(position_body, self.inertia, self.gravity_parameter())
@@ -249,9 +249,9 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         )
 
     def limit_inputs(self) -> StepInputs:
-        """Return the inputs with 0 for values that are not finite and a limited dipole; set status and applied_dipole.
+        """Return the inputs, with 0 for values that are not finite and a limited dipole; set status and applied_dipole.
 
-        The motor torques are still the commanded ones.
+        The motor torques are returned as commanded, without their limits.
         """
         commands = self.motor_torques
         finite = is_finite(self.dipole) and is_finite(self.body_force) and is_finite(self.body_torque)

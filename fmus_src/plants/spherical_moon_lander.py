@@ -1,4 +1,4 @@
-"""Point-mass lander over a spherical Moon, with lags of engine and attitude."""
+"""Point-mass lander over a spherical Moon, with engine and attitude lags."""
 
 from ..block import Parameter, State
 from ..interfaces.ports import landing
@@ -11,18 +11,18 @@ from .moon_lander import MoonLander
 class SphericalMoonLander(MoonLander):
     """Point mass with one engine and a first-order attitude response, in the central gravity field of the Moon.
 
-    The commanded direction at time t is the unit vector of d + d' (t - command_time). The attitude starts on the first
-    command and turns towards the command at the rate
+    The commanded direction at time t is the unit vector of d + d' (t - command_time). The attitude starts at the first
+    command and turns towards the present command at the rate
 
         |ω| = min(angle/direction_response, slew_rate_limit)
 
-    Without both it equals the command. Thrust, mass and motion are those of `moon_lander`; where the attitude leaves
-    its rate limit within a step the order is three. When altitude is 0 or less at the end of an internal step the
-    motion is held.
+    If direction_response and slew_rate_limit are both 0, it equals the command. Thrust, mass and motion are computed as
+    in `moon_lander`; in a step in which the attitude leaves its rate limit, the order of the method is three. The
+    motion is frozen when the altitude is 0 or less at the end of an internal step.
 
-    Steps are internal_step or equal parts of it no longer than lag and response (down to 1/100, below which a response
-    is ignored), cut where thrust ends. Results depend on the communication step by rounding only if communication
-    points are whole multiples of internal_step apart; other distances are divided into equal steps.
+    Steps are internal_step or equal parts of it no longer than the lag and the response (at least 1/100; a shorter
+    response is ignored), and end where thrust ends. If the communication step is a multiple of internal_step, it
+    affects results only by rounding; other communication steps are divided into equal steps.
 
     See docs/systems/lunar_landing.md.
     """
@@ -73,9 +73,7 @@ class SphericalMoonLander(MoonLander):
         )
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Perform an internal step of h (s) under one commanded thrust (N); return the velocity gained by thrust
-        (m/s).
-        """
+        """Perform an internal step of h (s) under a constant commanded thrust (N); return the velocity gained (m/s)."""
         if self.response <= 0.0 and self.slew_rate_limit <= 0.0:
             self.point(t)
         gained = self.advance(t, h, commanded)
@@ -87,7 +85,7 @@ class SphericalMoonLander(MoonLander):
         return not self.ground_contact and not self.latched
 
     def burn_ended(self) -> None:
-        """Hold the motion if latch_at_burn_end is set."""
+        """Freeze the motion if latch_at_burn_end is set."""
         self.latched = self.latch_at_burn_end
 
     def step(self, t: float, h: float) -> None:

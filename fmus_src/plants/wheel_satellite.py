@@ -21,7 +21,7 @@ class WheelSatelliteStatus(Enumeration):
 
 
 class SatelliteMotion(Record):
-    """Rotation of satellite and wheels, or its time derivative."""
+    """Rotation of satellite and wheels, or the time derivative of this rotation."""
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     angular_momentum = Field(
@@ -40,18 +40,18 @@ class SatelliteMotion(Record):
 class WheelSatellite(SpinningWheels):
     """Rigid body with four balanced reaction wheels, under constant external torques.
 
-    With unit spin axes g_i, wheel speeds Ω_i relative to the body, spin inertia J_s, motor torques with friction u_i,
-    inertia I of the whole satellite, wheels included as if not spinning, and external torque L:
+    With unit spin axes g_i, wheel speeds Ω_i relative to the body, spin inertia J_s, motor torques including friction
+    u_i, inertia I of the satellite with its wheels, not spinning, and external torque L:
 
         (I - Σ J_s g_i g_i^T) ω' = -ω × (I ω + Σ J_s Ω_i g_i) - Σ u_i g_i + L
         Ω_i' = u_i/J_s - g_i · ω'    q' = q ω/2
 
-    The integrated states are the wheels' momenta h and the total angular momentum G in inertial axes:
+    The integrated states are the attitude q, the wheels' momenta h and the total angular momentum G in inertial axes:
 
         h' = u    G' = R(q) L    ω = (I - J_s A A^T)^-1 (R(q)^T G - A h)    Ω = h/J_s - A^T ω
 
-    so that G is constant to the bit without external torque. Runge-Kutta of fourth order in steps of internal_step, or
-    equal parts of the communication step.
+    so that G is exactly constant without external torque. The motion is integrated by the fourth-order Runge-Kutta
+    method in steps of internal_step, or in equal parts of the communication step.
 
     Frames: body, origin at the centre of mass; inertial.
 
