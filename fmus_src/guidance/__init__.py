@@ -1,1 +1,1 @@
-"""Guidance laws, interchangeable within their slots."""
+"""Guidance laws; the laws of one slot are interchangeable."""

@@ -12,7 +12,7 @@ from .terminal_guidance import TerminalGuidance
 class AnalyticGuidance(TerminalGuidance):
     """Terminal guidance in closed form: time to go from a quadratic, linear pitch and yaw programmes.
 
-    With the velocity A and position B to gain without thrust and gravity:
+    With the changes A of velocity and B of position that thrust must produce, without gravity, over the time to go T:
 
         p = 3 B - A T    q = A T - 2 B    n = sqrt(p_x^2 + p_y^2)
         a_2 T^2 + a_3 T + a_4 = 0    W = |A|/T

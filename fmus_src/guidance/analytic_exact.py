@@ -11,8 +11,8 @@ class AnalyticExactGuidance(CertainTime):
 
         p = 3 B - A T    q = A T - 2 B    d = p/|p|    d' = (3/T) (q - (q · d) d)/|p|
 
-    This is the programme of pitch and yaw in vectors, without their singularities. The last command burns for the
-    remaining time_to_go. Starts that do not brake use the least effort.
+    The vector form of the pitch and yaw programme has no singularities. The last command burns for the remaining
+    time_to_go. Starts that do not brake use the time of least effort.
 
     Assumes a flat Moon and constant gravity.
 

@@ -1,4 +1,6 @@
-"""Apollo's lunar descent guidance: a quartic polynomial to the target, with the time to go from the jerk there."""
+"""Apollo's lunar descent guidance: a quartic polynomial to the target; a given jerk at the target sets the time to
+go.
+"""
 
 from ..block import Parameter, State
 from ..mathlib.lunar.polynomial_descent import DescentShape, jerk_time
@@ -7,13 +9,14 @@ from .polynomial_guidance import PolynomialGuidance
 
 
 class ApolloGuidance(PolynomialGuidance):
-    """Quartic of time about the target, as in Apollo's P63 and P64, with the time to go of a given final jerk.
+    """Quartic polynomial of time to the target, as in Apollo's P63 and P64; a given final jerk sets the time to go.
 
     The final thrust acceleration is final_lift upwards and final_deceleration against the forward axis, which is
-    horizontal towards the target at the start and then fixed. The time to go is that at which the jerk along this axis
-    equals target_jerk, by Newton's method from the previous time. Below freeze_time it is only counted down. Status 3
-    without a time at the start, as for a jerk of the wrong sign; later failures count down. time_choice and time_weight
-    have no effect. The law has no thrust limit: status 1 if the rest of the flight exceeds it.
+    horizontal towards the target at the start and then fixed. The time to go is the time for which the final jerk along
+    this axis equals target_jerk, by Newton's method from the previous time. Below freeze_time, and when Newton's method
+    fails, it is counted down. The status is 3 if no time exists at the start, as for a jerk of the wrong sign.
+    time_choice and time_weight have no effect. The law does not limit thrust; the status is 1 if the remaining descent
+    needs more than maximum_thrust.
 
     Assumes constant gravity or gravity_correction.
 
@@ -52,7 +55,7 @@ class ApolloGuidance(PolynomialGuidance):
         return self.lead_time
 
     def face_target(self) -> None:
-        """Set the forward axis, horizontal towards the target."""
+        """Set the forward axis to the horizontal direction towards the target."""
         way = self.aim_position - self.position
         level = vector(way.x, way.y, 0.0)
         length = norm(level)

@@ -12,9 +12,9 @@ class AstarGuidance(AstarProgramme):
 
         (A T - 3 B) · (A T - 2 B) = 0    W = 2 |B|/T^2
 
-    It starts from 2 R/V, then from the last time to go; tolerance 1e-6 s, at most 50 iterations. Without convergence
-    the status is 2 and the last command is held: about 15 % of the published box has no root. `astar_robust_guidance`
-    has a time for every start.
+    Newton's method starts from 2 R/V and later from the last time to go, with a tolerance of 1e-6 s and at most 50
+    iterations. Without convergence the status is 2 and the last command is held; for about 15 % of the published box of
+    starts no root exists. `astar_robust_guidance` has a time for every start.
 
     Source: Fomichev and Li 2017, method A* (the equation for T is not printed there).
     """
@@ -56,7 +56,7 @@ class AstarGuidance(AstarProgramme):
         return 0.0
 
     def newton_time(self, dr: Vector3, dv: Vector3) -> float:
-        """Return the time to go (s), or 0 with the status set if there is none."""
+        """Return the time to go (s); if there is none, set the status and return 0."""
         speed = norm(self.velocity)
         self.status = TerminalStatus.NO_SOLUTION
         start = self.last_root

@@ -23,7 +23,7 @@ class AstarModifiedGuidance(AstarProgramme):
     exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")
 
     def formula_time(self, dr: Vector3, dv: Vector3) -> float:
-        """Return the time to go (s) and set the status: good, or no solution with a time of 0."""
+        """Return the time to go (s), or 0 if there is none, and set the status."""
         g = self.gravity
         distance = norm(dr)
         speed_sum = norm(self.velocity) + norm(self.target_velocity)

@@ -16,7 +16,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
         sin ψ = (2 A_z/T - 6 B_z/T^2)/W    sin θ = (-2 A_y/T + 6 B_y/T^2)/(W cos ψ)
 
     An arcsine argument above 1 is clamped and counted. A programme that rotates by more than a radian within a sample
-    period is replaced by its mean over the period, by Simpson's rule.
+    period is replaced by its mean over the period, computed by Simpson's rule.
 
     Assumes a forward component of thrust along x, which the arcsines require.
 
@@ -28,14 +28,16 @@ class AstarProgramme(TerminalGuidance, interface=True):
     )
 
     def angle(self, sine: float) -> float:
-        """Return the arcsine, with arguments outside [-1, 1] clamped and, beyond a rounding of 1e-12, counted."""
+        """Return the arcsine of an argument clamped to [-1, 1]; count arguments that exceed 1 by more than 1e-12 in
+        magnitude.
+        """
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
             self.status = TerminalStatus.CLAMPED
         return asin(clip(sine, -1.0, 1.0))
 
     def apply_weights(self, weight: float, theta: float, psi: float) -> Vector3:
-        """Return ``weight`` times the unit vector of the angles, landing-site frame."""
+        """Return ``weight`` times the unit vector with the programme's angles, in the landing-site frame."""
         forward = weight * cos(theta) * cos(psi)
         return vector(forward, weight * sin(psi), weight * sin(theta) * cos(psi))
 

@@ -1,6 +1,4 @@
-"""Method A* modified to work for every start: time to go from the cubic equation or the least effort, thrust from
-|a0|.
-"""
+"""Method A* modified to work for every start: time to go from a cubic equation or least effort, thrust from |a_0|."""
 
 from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
@@ -17,8 +15,8 @@ class AstarRobustGuidance(AstarProgramme, CertainTime):
         |A| T = 2 |B|    W = |a_0| = 2 |A T - 3 B|/T^2
 
     With this W no arcsine argument exceeds 1. The last command burns for the remaining time_to_go. Starts that do not
-    brake use the least effort. There, and where thrust has too small a component along x for the arcsines, direction
-    and rate are those of a_0 + a_1 t.
+    brake use the time of least effort. For these starts, and where the component of thrust along x is too small for the
+    arcsines, direction and rate are taken from the thrust acceleration a_0 + a_1 t.
 
     Source: Fomichev and Li 2017, method A*; changes: docs/systems/lunar_terminal_guidance.md.
     """

@@ -1,4 +1,4 @@
-"""Bank angle during an entry: a target with reversals, and a reference that leads from one target to the next."""
+"""Bank angle during an entry: a target with sign reversals, and a reference that follows the target."""
 
 import math
 
@@ -20,11 +20,11 @@ class BankMethod(Enumeration):
 
 
 class BankProgramme(Block):
-    """Target bank with up to two sign reversals, and a reference that leads to it.
+    """Target bank angle with up to two sign reversals, and a reference that follows the target.
 
-    method 0, ideal: the reference is the target. method 1, limited: the same, with a limit of the error that the
-    regulator acts on. method 2, time-optimal: the reference accelerates with bank_acceleration c, coasts at v of at
-    most bank_rate and decelerates. For an angle L of sign n:
+    method 0, ideal: the reference is the target. method 1, limited: as method 0, but the regulator limits the bank
+    error to largest_error. method 2, time-optimal: the reference accelerates with bank_acceleration c, coasts at a rate
+    v of at most bank_rate and decelerates. For a change from γ_0 to γ_1 by an angle L with sign n:
 
         v = min(bank_rate, sqrt(L c))    t_1 = v/c    t_2 = L/v
         γ = γ_0 + n c t^2/2    if t <= t_1
@@ -94,7 +94,9 @@ class BankProgramme(Block):
             self.lead(before, self.time_since_reversal)
 
     def lead(self, before: float, s: float) -> None:
-        """Set the reference on its way from the previous target to the present one, ``s`` (s) after the reversal."""
+        """Set the reference between the previous target ``before`` (rad) and the present one, ``s`` (s) after the
+        reversal.
+        """
         way = abs(self.target_bank - before)
         if way <= 0.0:
             return

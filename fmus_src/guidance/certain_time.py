@@ -1,4 +1,4 @@
-"""Time to go for every start, shared by the two guidances that have one."""
+"""Choice of a time to go for every start, shared by two guidance laws."""
 
 from ..block import State
 from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
@@ -13,20 +13,21 @@ CHASE = 1.5
 
 
 class CertainTime(TerminalGuidance, interface=True):
-    """Time to go for every start: from |A| T = 2 |B| for braking starts, of least effort for others.
+    """Time to go for every start: from |A| T = 2 |B| for braking starts, otherwise of least effort.
 
-    With k upwards, the thrust acceleration a_0 + a_1 t meets position and velocity at the target:
+    With the upward unit vector k, the thrust acceleration a_0 + a_1 t meets position and velocity at the target:
 
         A = ΔV + g T k    B = Δr - V T + g T^2 k/2
         a_0 = -(2/T^2) (A T - 3 B)    a_1 = (6/T^3) (A T - 2 B)
 
-    The condition |A| T = 2 |B| gives thrust of nearly constant size. It has no suitable root for starts at rest,
-    receding or beside the target, and one far too long for slow approaches; these use the T of least integral of |a_0 +
-    a_1 t|^2, which exists wherever there is gravity and distance. The choice is made at the first command; a
-    least-effort flight changes to braking once both times agree. With frozen_time_to_go the law is a_0 + a_1 t.
+    The condition |A| T = 2 |B| gives thrust of nearly constant magnitude. It has no suitable root for starts at rest,
+    moving away from the target or passing it, and for slow approaches its root is far too long. These starts use the T
+    of least effort, which minimises the integral of |a_0 + a_1 t|^2 and exists for any gravity and distance other than
+    0. The choice is made at the first command; a flight of least effort changes to braking once both times agree. With
+    frozen_time_to_go the law is a_0 + a_1 t.
 
-    Limits: no knowledge of the ground; a start too fast for its distance passes the target and returns, possibly below
-    it; without gravity there is no time for a start at rest.
+    Limits: the law does not know the ground; a start too fast for its distance passes the target and returns, possibly
+    from below; without gravity there is no time for a start at rest.
 
     Source: D'Souza 1997, "An optimal guidance law for planetary landing"; choice between the times: this repository.
     """
@@ -39,7 +40,7 @@ class CertainTime(TerminalGuidance, interface=True):
         self.least_effort = False
 
     def time_left(self, dr: Vector3, dv: Vector3) -> float:
-        """Return the time to go (s) and set least_effort; 0 if no time exists."""
+        """Set least_effort and return the time to go (s), or 0 if no time exists."""
         if self.plan_frozen():
             self.least_effort = True
             return self.frozen_time_to_go
@@ -63,7 +64,7 @@ class CertainTime(TerminalGuidance, interface=True):
         return time
 
     def thrust_linearly(self, a: Vector3, b: Vector3, time: float) -> None:
-        """Command the mean of a0 + a1 t over the next burn, from A (m/s), B (m) and the time to go (s)."""
+        """Command the mean of a_0 + a_1 t over the next burn, from A (m/s), B (m) and the time to go (s)."""
         thrust = linear_thrust(
             a, b, time, self.burn_span(time), self.command.thrust_direction, self.command.thrust_direction_rate
         )

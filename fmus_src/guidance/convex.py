@@ -1,4 +1,6 @@
-"""Convex powered-descent guidance: a plan of least propellant by an interior-point method, and its tracking."""
+"""Convex powered-descent guidance: a least-propellant plan by an interior-point method, and a law that tracks the
+plan.
+"""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -25,15 +27,17 @@ LATE = 1.03  # of the remaining time, above which a plan uses more of the thrust
 
 
 class ConvexGuidance(ZemZevGuidance):
-    """Least propellant within thrust, glide slope and tilt by convex optimisation, planned on events and tracked.
+    """Least propellant within thrust, glide slope and tilt limits by convex optimisation, planned on events and
+    tracked.
 
-    A plan has 24 intervals of constant thrust acceleration and 1.02 times the best time of flight. It is computed at
-    the start and when the vehicle deviates by 30 m, or by 1 m for each second to go if that is less; between plans the
-    vehicle is tracked to it. Below end_time the law is ZEM/ZEV.
+    A plan has 24 intervals of constant thrust acceleration and 1.02 times the best time of flight. A plan is computed
+    at the start and when the vehicle deviates from the last one by 30 m or, if this is less, by 1 m for each second to
+    go. In between the vehicle tracks the plan. Below end_time the law is ZEM/ZEV.
 
-    Status 1, with `limit`: a plan from below the glide slope (2); target out of reach, with the least miss, or an old
-    plan kept because no new one meets the target (8); ZEM/ZEV for lack of a plan. Status 2: position, velocity or mass
-    not usable for planning. Status 3: no time at the start. With frozen_time_to_go the law is ZEM/ZEV.
+    The status is 1, with `limit`, if the plan starts below the glide slope (2); if the target is out of reach and the
+    plan has the least miss, or if no new plan meets the target and the old one is still used (8); or if ZEM/ZEV is used
+    because no plan exists. It is 2 if position, velocity or mass is not usable for planning, and 3 if no time exists at
+    the start. With frozen_time_to_go the law is ZEM/ZEV.
 
     Assumes constant gravity or gravity_correction.
 
@@ -67,7 +71,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.since_plan = 0.0
 
     def task(self) -> DescentTask:
-        """Return the descent from the present state with the limits for plans."""
+        """Return the descent problem from the present state with the limits for plans."""
         return DescentTask(
             position=self.position,
             velocity=self.velocity,
@@ -87,7 +91,7 @@ class ConvexGuidance(ZemZevGuidance):
         )
 
     def take(self, s: PlanSummary, plan: list) -> None:
-        """Start the execution of a plan."""
+        """Start to follow a plan."""
         for i in range(PLAN):
             self.plan[i] = plan[i]
         self.plan_time = s.time
@@ -96,7 +100,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.expected_time = s.time
 
     def plan_first(self) -> None:
-        """Compute the first plan from an estimate of the time and start it, or hand over to ZEM/ZEV."""
+        """Compute and follow the first plan, from an estimate of the time, or hand over to ZEM/ZEV."""
         time = self.braking_time()
         lowest = LOWEST_BRAKING
         if not time > 0.0:
@@ -118,7 +122,9 @@ class ConvexGuidance(ZemZevGuidance):
         self.handed_over = not self.chosen
 
     def find_plan(self, bracket: TimeBracket, plan: list) -> PlanSummary:
-        """Set a plan; if none exists with the glide slope, with a lower one that contains the start, then without."""
+        """Compute a plan; if none exists with the glide slope, with a lower slope that contains the start, then
+        without one.
+        """
         task = self.task()
         first = bracket
         outside = self.glide_slope > 0.0 and self.glide_margin < 0.0
@@ -138,11 +144,10 @@ class ConvexGuidance(ZemZevGuidance):
         return s
 
     def replan(self) -> None:
-        """Compute a plan from the present state with about the remaining time; it replaces the old one if it meets the
-        target.
+        """Compute a plan from the present state with about the remaining time; follow it if it meets the target.
 
-        A plan uses all the thrust that it may, so a late correction of the estimate could make the next plan far
-        longer; therefore the next plan may use half of the thrust reserve.
+        A plan uses all the thrust that it is allowed, so a late correction of the estimate could make the next plan far
+        longer; therefore a plan that is longer may use half of the thrust reserve.
         """
         plan = [0.0] * PLAN
         bracket = replan_bracket(self.expected_time)
@@ -164,7 +169,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.solver_iterations = iterations
 
     def is_end_due(self) -> bool:
-        """Return True if ZEM/ZEV is due: near the end if it hardly violates a limit, and for the last burn."""
+        """Return True if ZEM/ZEV is due: near the end, if it hardly violates a limit, and for the last burn."""
         if self.expected_time <= self.hold_time() + self.cycle:
             return True
         if self.expected_time > self.end_time:
@@ -183,7 +188,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.check(self.expected_time)
 
     def is_sound(self) -> bool:
-        """Return True if the vehicle's estimated state is usable for planning."""
+        """Return True if the estimated state of the vehicle is usable for planning."""
         known = all_below(self.position, LARGEST) and all_below(self.velocity, LARGEST)
         return known and self.mass > SMALLEST_MASS and self.mass < LARGEST and self.maximum_thrust > 0.0
 
@@ -204,7 +209,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.track()
 
     def stay_on_course(self) -> None:
-        """Compute a new plan or hand over to ZEM/ZEV, if due."""
+        """Compute a new plan if the deviation requires it, or hand over to ZEM/ZEV if it is due."""
         if self.is_end_due():
             self.hand_over()
             return
@@ -217,7 +222,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.replan()
 
     def track(self) -> None:
-        """Command the plan's thrust with a correction of deviations from the plan."""
+        """Command the plan's thrust with a correction for deviations from the plan."""
         self.time_to_go = self.expected_time
         step = self.plan_time / float(INTERVALS)
         elapsed = self.plan_time - self.expected_time
@@ -241,7 +246,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.command_profile(time)
 
     def report(self) -> None:
-        """Set the status from the violated limits."""
+        """Set the status according to the violated limits."""
         self.status = TerminalStatus.GOOD
         if self.limit > 0:
             self.status = TerminalStatus.CLAMPED

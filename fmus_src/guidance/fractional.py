@@ -22,9 +22,10 @@ class FractionalGuidance(PolynomialGuidance):
 
         a = a_f + d_1 t^γ + d_2 t^γ_2    γ_2 = k_r/(γ + 2) - 2
 
-    A k_r above 6 straightens the end towards the final thrust acceleration a_f, upright for a_f along z. With
-    gain_choice 1 time and k_r are those of least propellant with a penalty on glide slope and tilt. Status 3 if γ or
-    γ_2 is negative or both are equal. With frozen_time_to_go a searched gain is 6.
+    t is the time to go. The larger k_r above 6, the earlier the thrust acceleration approaches its final value a_f;
+    with a_f along z the approach ends upright. With gain_choice 1 a search finds the time and k_r of least propellant,
+    with penalties on glide slope and tilt. The status is 3 if γ or γ_2 is negative or both are equal. With
+    frozen_time_to_go there is no search, and k_r is 6 instead.
 
     Assumes constant gravity or gravity_correction.
 
@@ -57,7 +58,7 @@ class FractionalGuidance(PolynomialGuidance):
         return cost.objective + GLIDE_PRICE * cost.depth + TILT_PRICE * cost.tilt_excess
 
     def search_time(self, first: float) -> float:
-        """Return the time to go (s) of the least objective, starting from ``first`` (s), and set flown_kr."""
+        """Return the time to go (s) of the least objective by a search from ``first`` (s), and set flown_kr."""
         if self.gain_choice == GainChoice.FIXED:
             self.take_gain()
             if not is_regular(self.shape(self.kr)):

@@ -1,4 +1,4 @@
-"""Gravity turn: thrust opposite to the velocity, to rest at the target's height."""
+"""Gravity turn: thrust opposite to the velocity, ending at rest at the target's height."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -10,15 +10,16 @@ from .informed_guidance import LIMIT_THRUST, InformedGuidance
 
 
 class GravityTurnGuidance(InformedGuidance):
-    """Gravity turn: thrust of constant ratio to gravity against the velocity, to rest at the target height.
+    """Gravity turn: thrust opposite to the velocity, in constant ratio to gravity, ending at rest at the target's
+    height.
 
     The law controls neither horizontal position nor velocity: the horizontal part of target_position, target_velocity,
     minimum_thrust, thrust_margin and largest_tilt have no effect, and frozen_time_to_go is not supported. With
     gravity_correction gravity is central gravity minus the centrifugal acceleration. With ignition_fraction there is no
-    thrust until the demand reaches that fraction of maximum_thrust. Status 1 if the demand exceeds maximum_thrust, 3 at
-    or below the target's height or while ascending.
+    thrust until the demand reaches that fraction of maximum_thrust. The status is 1 if the demand exceeds
+    maximum_thrust, and 3 at or below the target's height or while ascending.
 
-    Assumes constant gravity over the rest of the flight.
+    Assumes constant gravity over the remaining flight.
 
     Source: Citron, Dunin and Meissinger 1964.
     """
@@ -43,7 +44,9 @@ class GravityTurnGuidance(InformedGuidance):
         self.burning = self.burning and self.commanding  # a divert leaves the engine on
 
     def local_gravity(self) -> tuple[Vector3, float]:
-        """Return the local vertical, and gravity (m/s2) minus the centrifugal acceleration along it."""
+        """Return the local vertical and the magnitude of gravity, minus the centrifugal acceleration, along it
+        (m/s2).
+        """
         up = vector(0.0, 0.0, 1.0)
         g = self.gravity
         if self.gravity_correction:
@@ -76,7 +79,9 @@ class GravityTurnGuidance(InformedGuidance):
                 self.brake(turn.ratio * g, speed, g * up)
 
     def predict(self, turn: GravityTurn, thrust: float, up: Vector3) -> None:
-        """Set predicted propellant and miss of a turn with a thrust acceleration (m/s2), over level ground."""
+        """Set the predicted propellant and miss of a gravity turn with a thrust acceleration (m/s2), over level
+        ground.
+        """
         self.predicted_propellant = -self.mass * expm1(-thrust * turn.duration / self.exhaust_speed())
         way = across(self.aim_position - self.position, up)
         level = across(self.velocity, up)

@@ -1,4 +1,4 @@
-"""Guidance between hovers: modes, and the control law that tracks their plans."""
+"""Guidance between hovers: modes, and the control law that tracks the plans."""
 
 from ..block import Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -26,18 +26,19 @@ LARGEST_FACTOR_ERROR = 0.5  # for larger errors the engine does not follow this 
 class HoverGuidance(HoverPlan):
     """Guidance between hovers, with the modes idle, hold, programme, slow transfer, capture and descend.
 
-    A plan starts when active rises and when plan_number or mode changes, with the target of that instant. After its
-    plan every mode holds the plan's end; mode 5 descends from target_position with descent_acceleration up to
+    A plan starts when active becomes true and when plan_number or mode changes, with the target at that instant. After
+    its plan every mode holds the end of the plan; mode 5 descends from target_position with descent_acceleration up to
     descent_speed. With the plan's position r, velocity v, thrust over mass A and direction d, and estimates r_e, v_e:
 
         e = lim(r - r_e, largest_error)    f = ω^2 e + 2 ζ ω (v - v_e)
         q = lim((f - (f · d) d)/max(A + f · d, 1), tan(largest_tilt))
         thrust_acceleration = max(A + f · d, 0.02) |d + q|/thrust_factor    direction = (d + q)/|d + q|
 
-    Accelerations are in m/s2. q passes a first-order low-pass of tilt_filter. A is the plan's mean over a sample period
-    that begins engine_lag later. The frequency ω is coasting_frequency in a programme, braking_frequency from 1 s
-    before its last burn on, and holding_frequency in holds and polynomials. thrust_factor is estimated from measured
-    and commanded thrust. thrust_direction_rate is the plan's; the rate of q would cause limit cycles.
+    Accelerations are in m/s2. q passes a first-order low-pass of tilt_filter. A is the mean of the plan over a sample
+    period that begins engine_lag later. The frequency ω is coasting_frequency in a programme, braking_frequency from 1
+    s before its last burn on, and holding_frequency in holds and polynomials. thrust_factor is estimated from measured
+    and commanded thrust. thrust_direction_rate is the rate of the plan's direction d alone; including the rate of q
+    would cause limit cycles.
 
     Source: Huang 2017 (programme); control law: this repository. See docs/systems/hover_transfer.md.
     """
@@ -190,7 +191,7 @@ class HoverGuidance(HoverPlan):
                 self.plan_capture(self.elapsed)
 
     def weigh_thrust(self) -> None:
-        """Compare the thrust of the last cycle with its command."""
+        """Update thrust_factor by comparing the measured thrust of the last cycle with the command."""
         thrust = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.elapsed)
         impulse = thrust.impulse
         self.engine_thrust = thrust.end
@@ -230,9 +231,10 @@ class HoverGuidance(HoverPlan):
             self.reference_velocity = -speed * self.up
 
     def reference_thrust(self, begin: float, end: float) -> float:
-        """Return the mean of the plan's thrust over mass (m/s2) between two times (s); local gravity after its end.
+        """Return the mean of the plan's thrust over mass (m/s2) between two times (s), or local gravity after the
+        plan's end.
 
-        A descent has no feedforward of its acceleration: feedback alone tracks its reference, which makes the motion
+        The acceleration of a descent is not fed forward: feedback alone tracks the reference, which makes the motion
         smooth.
         """
         gravity = self.gravity_at(self.position)
@@ -243,7 +245,7 @@ class HoverGuidance(HoverPlan):
         return impulse / (end - begin)
 
     def frequency(self, t: float) -> float:
-        """Return the natural frequency of the loop (rad/s) at time t (s) after the plan's start."""
+        """Return the natural frequency (rad/s) of the control loop at time t (s) after the plan's start."""
         if self.plan_kind == PlanKind.NONE or self.plan_kind == PlanKind.POLYNOMIAL or t >= self.duration:
             return self.holding_frequency
         if t >= self.shape.last_burn_begin - BEFORE_LAST_BURN:
@@ -266,7 +268,7 @@ class HoverGuidance(HoverPlan):
         self.track(planned, ahead, self.frequency(t))
 
     def track(self, plan: TurningDirection, planned: float, frequency: float) -> None:
-        """Apply the control law, with direction and thrust over mass (m/s2) of the plan as feedforward."""
+        """Apply the control law with the plan's direction and thrust over mass (m/s2) as feedforward."""
         direction = plan.direction
         error = self.reference_position - self.position
         near = limit_length(error, self.largest_error)

@@ -34,17 +34,18 @@ STANDBY_ACCELERATION = 0.5  # m/s2
 
 
 class HoverPlan(Block, interface=True):
-    """Plan to an upright hover at rest, with its thrust.
+    """Plan of a motion that ends in an upright hover at rest, with its thrust.
 
     Programmes lie in the plane through start and target that contains the target's vertical. Plans keep margins of
     thrust and angular acceleration for control.
 
     Frame: landing site.
 
-    Assumes uniform gravity over a plan, the mean of start and target, and a thrust axis of limited angular
+    Assumes uniform gravity over a plan, the mean of gravity at start and target, and a thrust axis of limited angular
     acceleration.
 
-    Source: Huang 2017, in a plane; in three dimensions this repository. See docs/systems/hover_transfer.md.
+    Source: Huang 2017 (planar motion); extension to three dimensions: this repository. See
+    docs/systems/hover_transfer.md.
     """
 
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter(300.0)
@@ -149,8 +150,8 @@ class HoverPlan(Block, interface=True):
         self.plan_gravity = 0.5 * (self.gravity_at(self.origin) + self.gravity_at(self.goal))
 
     def can_plan(self) -> bool:
-        """Return True if all data are finite and the engine can lift the vehicle; else hold the position with status
-        3.
+        """Return True if all data are finite and the engine can lift the vehicle; otherwise hold the position with
+        status 3.
         """
         fine = is_finite(self.position) and is_finite(self.velocity) and is_finite(self.target_position)
         fine = fine and math.isfinite(self.mass) and self.mass > 0.0
@@ -205,7 +206,7 @@ class HoverPlan(Block, interface=True):
                 self.predicted_propellant = self.mass * propellant(self.shape, self.vehicle, self.duration)
 
     def set_programme(self, p: HoverProgramme) -> None:
-        """Output the times of a programme."""
+        """Set the outputs of a programme's switching times."""
         self.programme[0] = p.t2
         self.programme[1] = p.t5
         self.programme[2] = p.width
@@ -213,7 +214,7 @@ class HoverPlan(Block, interface=True):
         self.programme[4] = p.t7
 
     def plan_transfer(self, speed: float, acceleration: float) -> None:
-        """Plan a polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
+        """Plan a polynomial from rest to rest within limits of speed (m/s) and acceleration (m/s2)."""
         way = self.goal - self.origin
         height = dot(way, self.up)
         longer = norm(way - height * self.up)
@@ -246,7 +247,7 @@ class HoverPlan(Block, interface=True):
             self.status = HoverStatus.BEYOND_LIMITS
 
     def limits(self) -> TransferLimits:
-        """Return the thrust and acceleration limits of plans."""
+        """Return the limits of thrust and angular acceleration for plans."""
         return TransferLimits(
             maximum_thrust=self.planned_maximum * self.maximum_thrust,
             minimum_thrust=self.planned_minimum * self.maximum_thrust,
@@ -255,8 +256,8 @@ class HoverPlan(Block, interface=True):
         )
 
     def take_polynomial(self, duration: float, spent: float) -> None:
-        """Make the polynomial with this duration (s) and impulse ``spent`` (m/s) the plan; status 3 if these are not
-        finite.
+        """Use the polynomial with this duration (s) and impulse ``spent`` (m/s) as the plan; set status 3 if they
+        are not finite.
         """
         if duration > 0.0 and math.isfinite(duration) and math.isfinite(spent):
             self.plan_kind = PlanKind.POLYNOMIAL
@@ -267,7 +268,7 @@ class HoverPlan(Block, interface=True):
             self.give_up()
 
     def lift(self) -> Vector3:
-        """Return the thrust over mass (m/s2) that balances the plan's gravity."""
+        """Return the thrust over mass (m/s2) that balances the gravity assumed in the plan."""
         return self.plan_gravity * self.up
 
     def plan_motion(self, t: float) -> Translation:

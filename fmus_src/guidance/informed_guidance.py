@@ -1,4 +1,4 @@
-"""Terminal guidance with knowledge of the engine and of constraints on the approach."""
+"""Terminal guidance with engine data and constraints on the approach."""
 
 import math
 
@@ -85,7 +85,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
         self.glide_margin = self.glide_height(self.position - self.aim_position)
 
     def braking_time(self) -> float:
-        """Return the time to go (s) of about constant thrust, from |A| T = 2 |B|; 0 if that does not brake."""
+        """Return the time to go (s) of about constant thrust, from |A| T = 2 |B|; 0 if its thrust does not brake."""
         time = 0.0
         for _ in range(ROUNDS):
             dr, dv = self.remaining_over(time)

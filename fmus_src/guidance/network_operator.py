@@ -19,12 +19,12 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     sample below handover_speed within the altitude limits. Direction rates are 0; sample periods of at most 0.1 s are
     suitable.
 
-    time_to_go is the time to lose all but handover_speed with the present thrust, within 10 % in the published
-    descents; it is 0 when the vehicle is slow but the altitude is not right.
+    time_to_go is the time in which the present thrust reduces the speed to handover_speed, accurate to 10 % in the
+    published descents; it is 0 when the vehicle is slow but the altitude is outside the limits.
 
-    Of the slot's parameters the law uses the altitude of target_position, or of a divert, and moon_radius; the other
-    parameters of target, gravity, last burn and frozen_time_to_go have no effect. With a matrix that is not a network
-    operator the status is 3 and there is no thrust.
+    Of the slot's parameters the law uses moon_radius and the altitude of target_position, or of a divert; the other
+    parameters of target, gravity and last burn, and frozen_time_to_go, have no effect. If the matrix is not a network
+    operator, the status is 3 and there is no thrust.
 
     Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
@@ -77,7 +77,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         self.estimate_time()
 
     def estimate_time(self) -> None:
-        """Set time_to_go from the rocket equation."""
+        """Set time_to_go by the rocket equation."""
         excess = norm(self.velocity) - self.handover_speed
         exhaust_speed = STANDARD_GRAVITY * self.specific_impulse
         self.time_to_go = 0.0

@@ -1,4 +1,4 @@
-"""Descent law by a network operator: its parameters and its thrust."""
+"""Descent law by a network operator: parameters and evaluation."""
 
 import math
 
@@ -31,17 +31,17 @@ PUBLISHED_MATRIX = (
 
 
 class NetworkOperatorLaw(Block, interface=True):
-    """Thrust and its angle from path angle and altitude, by a network operator of 16 nodes.
+    """Thrust and thrust angle from path angle and altitude, by a network operator of 16 nodes.
 
     With the angle θ of the velocity from the local vertical, altitude h, final altitude h_f and reference altitude h_0
     the sources are
 
         z_1 = π + θ    z_2 = q_1    z_3 = (h_f - h)/h_0    z_4 = q_2    z_5 = θ    z_6 = q_3
 
-    Outputs are z_15, the angle from the local vertical to the thrust, limited to 0 to π, and z_16, the thrust minus
-    nominal_thrust in kgf, limited to thrust_variation.
+    The outputs are z_15, the angle from the local vertical to the thrust, limited to 0 to π, and z_16, the thrust minus
+    nominal_thrust in kgf, limited to thrust_variation in magnitude.
 
-    Assumes that altitude and path angle suffice: range and cross-range are not part of the law.
+    Assumes that altitude and path angle suffice: the law does not control range and cross-range.
 
     Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
@@ -79,7 +79,7 @@ class NetworkOperatorLaw(Block, interface=True):
         self.edge_count = decode(self.matrix, self.edges)
 
     def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:
-        """Evaluate the nodes for a path angle (rad) and altitudes (m); the matrix must be a network operator."""
+        """Evaluate the nodes for a path angle (rad) and altitudes (m), for a matrix that is a network operator."""
         for j in range(SOURCES, SIZE):
             self.nodes[j] = neutral(self.matrix[j, j])
         self.nodes[0] = math.pi + path_angle

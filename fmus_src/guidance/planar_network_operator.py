@@ -14,11 +14,11 @@ class LawStatus(Enumeration):
 
 
 class PlanarNetworkOperator(NetworkOperatorLaw):
-    """Thrust and thrust angle of a planar descent by a network operator.
+    """Thrust and thrust angle of a planar descent, by a network operator.
 
-    Angles are from the local vertical, with the sign of planar_moon_lander's. With a matrix that is not a network
-    operator the thrust is 0 and the status 1. The law has no end: it guides to final_altitude and a few m/s, where
-    another guidance takes over.
+    Angles are measured from the local vertical, with the same sign as in planar_moon_lander. If the matrix is not a
+    network operator, the thrust is 0 and the status 1. The law does not end by itself: it guides to final_altitude and
+    a speed of a few m/s, from where another guidance takes over.
 
     Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """

@@ -27,18 +27,19 @@ class PointingStatus(Enumeration):
 class PointingGuidance(Block):
     """Reference attitude from the estimated orbit and the direction to the Sun.
 
-    NADIR: z to the body's centre, y against the orbit normal, rotated by ``offset``; with the acceleration a of J2:
+    NADIR: z points to the centre of the central body and y opposite to the orbit normal, both rotated by ``offset``;
+    with the acceleration a by J2:
 
         ω_r = (r × v)/|r|^2 + (a · (r × v)) r/|r × v|^2    ω_r' = -2 (r · v) ω_r/|r|^2
 
-    SUN: panel_normal to the Sun, secondary as near as possible to the orbit normal, at rest. INERTIAL:
+    SUN: panel_normal points to the Sun and secondary as near as possible to the orbit normal, at rest. INERTIAL:
     inertial_quaternion, at rest. An orbit sample is propagated from its sample_time to the present instant by
 
         r + v h + g h^2/2    v + g h
 
-    Frames: inertial; axes of the reference.
+    Frames: inertial; reference axes for the reference's rate and acceleration.
 
-    Assumes a body that rotates about the inertial z axis, and neglects the change of the J2 term in ω_r'.
+    Assumes a central body that rotates about the inertial z axis, and neglects the change of the J2 term in ω_r'.
 
     Source: Wertz 1978, section 16; Markley and Crassidis 2014, section 5.1. See docs/systems/earth_pointing.md.
     """
@@ -107,7 +108,7 @@ class PointingGuidance(Block):
         self.velocity = self.velocity + h * g
 
     def oblate_acceleration(self, r: Vector3) -> Vector3:
-        """Return the acceleration (m/s2, inertial) of J2, with the inertial z axis as the body's rotation axis.
+        """Return the acceleration (m/s2, inertial) by J2 of a central body that rotates about the inertial z axis.
 
         Source: Montenbruck and Gill 2000, section 3.2.
         """
@@ -118,7 +119,7 @@ class PointingGuidance(Block):
         return factor * (r - 5.0 * sine * sine * r + vector(0.0, 0.0, 2.0 * r.z))
 
     def rest_at(self, q: Vector4) -> None:
-        """Set the reference to an attitude at rest."""
+        """Set the reference to a constant attitude."""
         self.reference.reference_quaternion = q
         self.reference.reference_angular_velocity = vector(0.0, 0.0, 0.0)
         self.reference.reference_angular_acceleration = vector(0.0, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Terminal guidance by a thrust acceleration polynomial in the time to go, with a choice of that time."""
+"""Terminal guidance by a thrust acceleration with two powers of the time to go, and the choice of the time to go."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -31,7 +31,7 @@ class TimeChoice(Enumeration):
 
 
 class ProfileCost(Record):
-    """Impulse of a thrust profile, and its violations of limits."""
+    """Impulse of a thrust profile, and violations of limits."""
 
     objective = Field(unit="m/s", description="impulse with penalties on violated limits")
     impulse = Field(unit="m/s", description="integral of thrust acceleration")
@@ -43,14 +43,14 @@ class ProfileCost(Record):
 
 
 class PolynomialGuidance(InformedGuidance, interface=True):
-    """Thrust acceleration of two powers of the time to go, with an optimised time of flight.
+    """Thrust acceleration with two powers of the time to go, with an optimised time of flight.
 
         a = a_f + d_1 t^γ + d_2 t^γ_2    t = time_to_go
 
-    The coefficients follow from position and velocity at the target. The time is that of least propellant with
-    thrust_margin maximum_thrust as the largest thrust, or that of least effort; it is chosen at the start and counted
-    down. Every 2 s, above 10 s to go, the largest remaining thrust is compared with maximum_thrust, and another time is
-    chosen if it is exceeded, at most 30 times. Remaining violations are accepted with status 1.
+    Position and velocity at the target determine the coefficients. The time of flight minimises propellant, with
+    thrust_margin times maximum_thrust as the largest thrust, or effort; it is chosen at the start and counted down.
+    Every 2 s, until 10 s to go, the largest remaining thrust is compared with maximum_thrust; if the thrust is larger,
+    another time is chosen, at most 30 times. Further violations are accepted with status 1.
 
     Assumes constant gravity or gravity_correction, and thrust limits without a dead band.
 
@@ -66,11 +66,11 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     flown_kr = State(6.0, unit="1", description="gain kr of the position error in use")
 
     def shape(self, kr: float) -> DescentShape:
-        """Return the parameters of the law for the gain ``kr``; by default those of ZEM/ZEV, with a gain of 6."""
+        """Return the parameters of the law for the gain ``kr``; ZEM/ZEV, with a gain of 6, unless overridden."""
         return DescentShape(final=vector(0.0, 0.0, 0.0), gamma=1.0, kr=kr)
 
     def take_gain(self) -> None:
-        """Set flown_kr if the gain is a parameter."""
+        """Set flown_kr if the gain is a parameter; no action unless overridden."""
 
     def forget(self) -> None:
         self.chosen = False
@@ -115,11 +115,11 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return ProfileCost(objective=objective, impulse=impulse, load=load, depth=depth, tilt_excess=tilt_excess)
 
     def objective(self, time: float, kr: float) -> float:
-        """Return the objective (m/s) of a choice of time and gain."""
+        """Return the objective (m/s) for a time of flight (s) and a gain."""
         return self.cost_of(time, kr, self.thrust_margin).objective
 
     def best_time(self, first: float, shortest: float, spacing: float, kr: float) -> float:
-        """Return the time (s) of the least objective by a grid in units of the ``first`` time, then golden section."""
+        """Return the time (s) of the least objective by a grid with multiples of ``first`` (s), then golden section."""
         best = 0
         minimum = self.objective(first * shortest, kr)
         for i in range(1, TRIALS):
@@ -149,7 +149,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return 0.5 * (low + high)
 
     def choose_time(self) -> float:
-        """Return the time to go (s) and set flown_kr; 0 if no time exists."""
+        """Set flown_kr and return the time to go (s), or 0 if no time exists."""
         self.choices = self.choices + 1
         if self.time_choice == TimeChoice.EFFORT:
             return self.effort_time(self.time_weight)
@@ -159,11 +159,13 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return self.search_time(first)
 
     def search_time(self, first: float) -> float:
-        """Return the time to go (s) of the least objective, starting from ``first`` (s)."""
+        """Return the time to go (s) of the least objective by a search from ``first`` (s)."""
         return self.best_time(first, SHORTEST, SPACING, self.flown_kr)
 
     def time_left(self) -> float:
-        """Return the time to go (s): chosen at the start and when the thrust does not suffice, else counted down."""
+        """Return the time to go (s), chosen at the start and when the thrust does not suffice, otherwise counted
+        down.
+        """
         if self.plan_frozen():
             self.take_gain()
             return self.frozen_time_to_go
@@ -181,11 +183,11 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return time
 
     def is_check_due(self, time: float) -> bool:
-        """Return True if the remaining thrust must be checked, with ``time`` (s) to go."""
+        """Return True if the remaining thrust must be checked at ``time`` (s) to go."""
         return time > LAST_CHECK and self.checked_time - time >= CHECK_INTERVAL
 
     def check(self, time: float) -> None:
-        """Set `limit` and the predictions from the profile for ``time`` (s)."""
+        """Set `limit` and the predictions from the profile with ``time`` (s) to go."""
         self.checked_time = time
         self.limit = 0
         if time > 0.0:
@@ -211,11 +213,11 @@ class PolynomialGuidance(InformedGuidance, interface=True):
             self.status = TerminalStatus.NO_SOLUTION
 
     def lead(self) -> float:
-        """Return the lead time (s) with which the profile is commanded."""
+        """Return the lead time (s) with which the profile is commanded; 0 unless overridden."""
         return 0.0
 
     def command_profile(self, time: float) -> None:
-        """Command the profile's mean over the next burn by Simpson's rule, with ``time`` (s) to go."""
+        """Command the mean of the profile over the next burn, by Simpson's rule, with ``time`` (s) to go."""
         dr, dv = self.remaining_over(time)
         profile = descent_profile(dr, self.velocity, dv, self.gravity, time, self.shape(self.flown_kr))
         span = self.burn_span(time)

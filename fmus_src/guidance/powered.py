@@ -21,12 +21,13 @@ FIRST_THRUST = 0.85  # of the largest
 
 
 class PoweredGuidance(ZemZevGuidance):
-    """Linear-tangent steering with a constant thrust that meets the range, and ZEM/ZEV near the end.
+    """Linear-tangent steering with the constant thrust that meets the range, and ZEM/ZEV near the end.
 
     There are three iterations per sample. Above end_time the law commands the constant thrust that meets position and
-    velocity; below it ZEM/ZEV with the time of the hand-over, or another one if its thrust exceeds thrust_margin of the
-    largest. Status 1: thrust outside minimum_thrust and maximum_thrust, limited. Status 2: an iteration without
-    solution. Status 3: no convergence at the start, as in hovering descents. With frozen_time_to_go the law is ZEM/ZEV.
+    velocity. Below end_time the law is ZEM/ZEV with the time to go at the hand-over, or with another time if the thrust
+    would exceed thrust_margin times maximum_thrust. The status is 1 if the thrust is limited by minimum_thrust or
+    maximum_thrust, 2 if an iteration has no solution, and 3 if the iteration does not converge at the start, as in
+    hovering descents. With frozen_time_to_go the law is ZEM/ZEV.
 
     Assumes constant gravity or gravity_correction, and a known exhaust speed.
 
@@ -76,7 +77,7 @@ class PoweredGuidance(ZemZevGuidance):
                 self.steering = iterate_steering(self.steering, self.problem(self.steering.time))
 
     def begin_steering(self) -> None:
-        """Iterate for the first time, starting from the time of about constant thrust."""
+        """Perform the first iterations, starting from the time to go of about constant thrust."""
         self.steering = SteeringState(
             time=0.0,
             thrust=FIRST_THRUST * self.maximum_thrust,
@@ -137,7 +138,7 @@ class PoweredGuidance(ZemZevGuidance):
         self.predicted_propellant = thrust / self.exhaust_speed() * s.time
 
     def end_linearly(self) -> None:
-        """Command ZEM/ZEV; another time is chosen at the hand-over only if the thrust does not suffice."""
+        """Command ZEM/ZEV; choose another time at the hand-over only if the thrust does not suffice."""
         time = self.expected_time
         if self.plan_frozen():
             time = self.frozen_time_to_go

@@ -1,4 +1,4 @@
-"""Plan of an approach to a passive rotating object, and clock of translation control."""
+"""Plan of an approach to a passive rotating object, and clock for translation control."""
 
 import math
 
@@ -30,22 +30,23 @@ class RendezvousPhase(Enumeration, first=1):
 
 
 class RendezvousGuidance(Block):
-    """Planned motion of a free-flying robot from rest to holding a place in front of a passive rotating object.
+    """Planned motion of a free-flying robot from rest to a fixed position in front of a passive rotating object.
 
-    Phase 1, until turn_start: constant acceleration from rest at the origin, body axes inertial. Phase 2, until
-    turn_end: coast, and a turn of the camera axis (body x) along the object's spin_axis, about the axis perpendicular
-    to both. Phase 3, until arrival_time: a spline to final_distance from the object's centre against spin_axis, at the
-    object's velocity. Phase 4: hold.
+    Phase 1, until turn_start: constant acceleration from rest at the origin, with inertial body axes. Phase 2, until
+    turn_end: coast, and a turn that aligns the camera axis (body x) with the object's spin_axis, about the axis
+    perpendicular to both. Phase 3, until arrival_time: a spline that ends at final_distance from the object's centre,
+    on the side opposite to spin_axis, with the object's velocity. Phase 4: hold of this position.
 
         φ = φ_f (20 s^3 - 45 s^4 + 36 s^5 - 10 s^6)    T^2 r'' = s (1 - s) (a + b s)
 
-    with the angle φ of the turn and the fraction s of the phase's time T. The acceleration of phase 1 is that for which
-    the velocity of phase 3 changes along a straight line without overshoot.
+    with the angle φ of the turn and the fraction s of the phase's time T. The acceleration of phase 1 is chosen so that
+    the velocity in phase 3 changes along a straight line without overshoot.
 
-    The block is also the clock of translation control: translation_count grows at each of its samples, every
-    slow_period at first (a whole multiple of fast_period), and from turn_end on at every multiple of fast_period. A
-    command acts from delay_fraction of the period later until the next one; planned_acceleration is the mean over that
-    time. Phases out of order give no plan: status 1, and the robot stays at rest.
+    The block is also the clock of translation control: translation_count increases at each sample, which occurs every
+    slow_period (a whole multiple of fast_period) until turn_end and every fast_period from then on. A command takes
+    effect after delay_fraction of the period and lasts until the next one does; planned_acceleration is the mean over
+    this time. If the times of the phases are not in order there is no plan: the status is 1, and the robot stays at
+    rest.
 
     Frames: inertial; planned body.
 
@@ -173,7 +174,7 @@ class RendezvousGuidance(Block):
         spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
 
     def motion(self, time: float) -> Translation:
-        """Return the planned motion at a time (s) after the start."""
+        """Return the planned motion at a time (s) after the start of the simulation."""
         if self.status != RendezvousStatus.GOOD:
             return Translation(position=vector(0.0, 0.0, 0.0), velocity=vector(0.0, 0.0, 0.0))
         if time <= self.turn_start:
@@ -187,7 +188,7 @@ class RendezvousGuidance(Block):
         return Translation(position=self.place + since * self.target_velocity, velocity=self.target_velocity)
 
     def approach(self, time: float) -> Translation:
-        """Return the motion on the splines."""
+        """Return the motion on the splines of phase 3."""
         duration = self.arrival_time - self.turn_end
         s = (time - self.turn_end) / duration
         position = [0.0] * 3
@@ -201,7 +202,9 @@ class RendezvousGuidance(Block):
         return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
-        """Set planned attitude and angular velocity, and the angular acceleration half an attitude_period later."""
+        """Set planned attitude and angular velocity, and the planned angular acceleration half an attitude_period
+        later.
+        """
         duration = self.turn_end - self.turn_start
         angle = 0.0
         rate = 0.0
@@ -252,7 +255,7 @@ class RendezvousGuidance(Block):
         self.translation_count = self.translation_count + 1
 
     def publish(self, time: float) -> None:
-        """Put the plan of ``time`` (s) on the outputs."""
+        """Set the outputs to the plan for ``time`` (s)."""
         planned = self.motion(time)
         self.planned_position = planned.position
         self.planned_velocity = planned.velocity

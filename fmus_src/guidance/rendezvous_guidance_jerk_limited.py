@@ -9,8 +9,8 @@ class RendezvousGuidanceJerkLimited(RendezvousGuidance):
     """Rendezvous plan with a rest-to-rest turn of least time within limits of rate, acceleration and jerk.
 
     The turn begins at turn_start and ends before turn_end; afterwards the robot keeps its attitude. The default limits
-    are below the polynomial's largest rate, acceleration and jerk (0.0461 rad/s, 1.81e-3 rad/s2, 2.67e-4 rad/s3). A
-    turn longer than its phase gives no plan: status 2, and the robot stays at rest.
+    are below the largest rate, acceleration and jerk of the polynomial turn (0.0461 rad/s, 1.81e-3 rad/s2, 2.67e-4
+    rad/s3). If the turn takes longer than its phase there is no plan: the status is 2, and the robot stays at rest.
 
     Source: Biagiotti and Melchiorri 2008, section 3.4. See docs/systems/satellite_pointing.md.
     """

@@ -1,4 +1,4 @@
-"""Slot of slew guidance: the reference attitude while a satellite turns to a target attitude."""
+"""Interface of slew guidance, which generates the reference attitude while a satellite turns to a target attitude."""
 
 from ..block import Block, Output, Outputs, Parameter, State
 from ..interfaces.ports import robot, sampling
@@ -40,11 +40,11 @@ class SlewGuidance(Block, interface=True):
         q_r = q_0 (cos(θ/2), e sin(θ/2))    ω_r = θ' e
 
     The turn begins at slew_start. The angular acceleration is the mean over the next sample_period, so that piecewise
-    constant torque reproduces the rate. Until estimated and target attitude are valid there is no reference, and times
-    count from the first valid estimate. A guidance defines `plan`, which sets duration from slew_angle, and `follow`,
-    which sets progress.
+    constant torque reproduces the rate. There is no reference until the estimated and the target attitude are valid;
+    times are measured from this instant. A guidance law defines `plan`, which sets duration from slew_angle, and
+    `follow`, which sets progress.
 
-    Frames: inertial; axes of the reference.
+    Frames: inertial; reference axes for the reference's rate and acceleration.
 
     Assumes a satellite at rest at the start.
 
@@ -86,10 +86,10 @@ class SlewGuidance(Block, interface=True):
         """Set duration (s) for slew_angle (rad)."""
 
     def follow(self, time: float) -> None:
-        """Set progress for a time (s) between 0 and duration."""
+        """Set progress at a time (s) between 0 and duration."""
 
     def proceed(self, time: float) -> None:
-        """Set progress for any time (s) of the simulation."""
+        """Set progress at any ``time`` (s) of the simulation."""
         elapsed = time - self.start_time - self.slew_start
         if elapsed <= sampling.TIME_ROUNDING:
             self.progress = SlewProgress(angle=0.0, rate=0.0)
@@ -99,7 +99,7 @@ class SlewGuidance(Block, interface=True):
             self.follow(elapsed)
 
     def set_phase(self, time: float) -> None:
-        """Set the phase for a time (s)."""
+        """Set the phase at ``time`` (s)."""
         elapsed = time - self.start_time - self.slew_start
         self.phase = SlewPhase.SLEWING
         if elapsed < -sampling.TIME_ROUNDING:
@@ -108,14 +108,14 @@ class SlewGuidance(Block, interface=True):
             self.phase = SlewPhase.HOLDING
 
     def set_attitude(self, time: float) -> None:
-        """Set attitude and angular velocity of the reference for a time (s)."""
+        """Set attitude and angular velocity of the reference at ``time`` (s)."""
         self.proceed(time)
         turn = from_rotation_vector(self.progress.angle * self.eigenaxis)
         self.reference.reference_quaternion = multiply(self.start_quaternion, turn)
         self.reference.reference_angular_velocity = self.progress.rate * self.eigenaxis
 
     def refer(self, time: float, period: float) -> None:
-        """Set the reference for a time (s), valid until the next sample a period (s) later."""
+        """Set the reference at ``time`` (s); its acceleration applies until the next sample, a ``period`` (s) later."""
         self.set_phase(time)
         self.proceed(time + period)
         rate_later = self.progress.rate
@@ -129,7 +129,9 @@ class SlewGuidance(Block, interface=True):
         self.begin(self.start_time, self.sample_period)
 
     def begin(self, time: float, period: float) -> None:
-        """Plan the turn at a time (s), from which all times count, if attitudes are valid; ``period`` is in s."""
+        """Plan the turn at ``time`` (s), which becomes the start of all times, if both attitudes are valid;
+        ``period`` is in s.
+        """
         self.phase = SlewPhase.NO_ATTITUDE
         self.reference.reference_quaternion = vector(0.0, 0.0, 0.0, 0.0)
         if not (is_attitude(self.estimated_quaternion) and is_attitude(self.target_quaternion)):

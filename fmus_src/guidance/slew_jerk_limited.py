@@ -13,7 +13,7 @@ ALIGNED = 1e-9  # rad, rotation without axis; fraction of rate_limit allowed acr
 
 
 class SlewStatus(Enumeration):
-    """Feasibility of the boundary rates."""
+    """Feasibility of the start and end angular velocities."""
 
     GOOD = member("good")
     BEYOND_RATE_LIMIT = member("no plan: a rate at the start or end beyond rate_limit")
@@ -32,12 +32,13 @@ class SlewLeg(Record):
 
 
 class SlewJerkLimited(SlewGuidance):
-    """Turn of least time within limits of rate, acceleration and jerk, from one angular velocity to another.
+    """Time-optimal turn within limits of rate, acceleration and jerk, from one angular velocity to another.
 
-    If both angular velocities lie along the eigenaxis, as at rest, the turn is about it, with the sense and whole turns
-    of least time. Otherwise three elementary rotations of least time follow each other: the first rate is stopped about
-    its axis, the attitude turned the shorter way, the last rate reached about its axis. The limits hold in magnitude,
-    but a faster turn exists. A change Δ of rate within limits A and J of acceleration and jerk takes
+    If both angular velocities lie along the eigenaxis or are 0, the turn is about the eigenaxis, with the sense and
+    number of whole revolutions that take the least time. Otherwise it consists of three elementary rotations, each of
+    least time: the start rate is stopped about its axis, the attitude turns the shorter way, and the end rate is
+    reached about its axis. The limits hold for the magnitudes; a faster turn then exists. A change Δ of rate within
+    limits A and J of acceleration and jerk takes
 
         T(Δ) = Δ/A + A/J    if Δ >= A^2/J
         T(Δ) = 2 sqrt(Δ/J)    if Δ < A^2/J
@@ -119,7 +120,9 @@ class SlewJerkLimited(SlewGuidance):
         self.duration = self.stop.profile.duration + self.turn.profile.duration + self.spin.profile.duration
 
     def choose_axis(self, rotation: Vector3) -> Vector3:
-        """Return the unit axis of a rotation vector (rad); for a zero rotation that of a boundary rate, or 0."""
+        """Return the unit axis of a rotation vector (rad); for a zero rotation the axis of a boundary rate, or 0
+        without one.
+        """
         if norm(rotation) > ALIGNED:
             return unit(rotation)
         if norm(self.start_angular_velocity) > 0.0:
@@ -141,7 +144,7 @@ class SlewJerkLimited(SlewGuidance):
         self.progress = SlewProgress(angle=motion.angle, rate=motion.rate)
 
     def coast(self, quaternion: Vector4, velocity: Vector3, time: float) -> None:
-        """Set the reference on a rotation at constant angular velocity (rad/s) from an attitude, after a time (s)."""
+        """Set the reference to a rotation at constant angular velocity (rad/s) for ``time`` (s) from an attitude."""
         self.start_quaternion = quaternion
         self.eigenaxis = unit(velocity)
         rate = norm(velocity)

@@ -9,13 +9,13 @@ PEAK_ACCELERATION = 5.773502691896258  # 10/sqrt(3) of angle/duration^2, at (3 -
 
 
 class SlewQuintic(SlewGuidance):
-    """Turn whose angle is a polynomial of fifth degree of time, with continuous acceleration.
+    """Turn by an angle that is a fifth-degree polynomial of time, with continuous acceleration.
 
     With rate_limit w and acceleration_limit u:
 
         θ(s) = θ (10 s^3 - 15 s^4 + 6 s^5)    s = t/T    T = max(15 θ/(8 w), sqrt(10 θ/(sqrt(3) u)))
 
-    The acceleration is 0 at both ends, which excites flexible modes little.
+    The acceleration is 0 at both ends, so flexible modes are hardly excited.
 
     Source: Biagiotti and Melchiorri 2008, section 2.1.
     """

@@ -4,9 +4,9 @@ from .slew_guidance import SlewGuidance
 
 
 class SlewStep(SlewGuidance):
-    """Step of the reference to the target at slew_start, at rest.
+    """Step of the reference at slew_start to the target attitude, at rest.
 
-    The rate of the turn is determined by the controller's error_limit and by the wheels.
+    The controller's error_limit and the wheels determine the rate of the turn.
 
     Source: Wie 1998, section 7.
     """

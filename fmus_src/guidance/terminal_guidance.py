@@ -1,4 +1,4 @@
-"""Slot of terminal guidance: position and velocity targets at a time to go."""
+"""Interface of terminal guidance, which steers to a target position and velocity in the time to go."""
 
 from ..block import Block, Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -16,7 +16,7 @@ SETTLED = 1e-10
 
 
 class TerminalStep(Enumeration):
-    """Termination of a terminal guidance."""
+    """Way in which a terminal guidance ends."""
 
     STOP = member("stop: finished when time_to_go < sample_period")
     EXACT = member("exact: last command burnt to the end of time_to_go")
@@ -35,12 +35,13 @@ class TerminalGuidance(Block, interface=True):
 
     with T from the previous sample, or at the start from repeated solutions until T is consistent.
 
-    While `active` is false there is no command and no memory: the next active sample is a start. When divert_count
-    changes, divert_position becomes the target from the next sample on and the law starts again; without a solution the
-    last command is held for its remaining time and each sample tries again. During the last burn diverts are ignored.
+    While `active` is false there is no command, and all states are reset; the next active sample is a new start. When
+    divert_count changes, divert_position becomes the target from the next sample on and the law starts again; without a
+    solution the last command is held for its remaining time and each sample tries again. During the last burn diverts
+    are ignored.
 
-    With frozen_time_to_go the law uses that time at every sample: a constant feedback law for linear stability studies.
-    The flight then ends by other conditions, and no command is a last burn.
+    With frozen_time_to_go the law uses this time at every sample, which makes it a constant feedback law for linear
+    stability studies. Other conditions then end the flight, and there is no last burn.
 
     Frame: landing site (x north, y west, z up), not rotating.
     """
@@ -104,11 +105,13 @@ class TerminalGuidance(Block, interface=True):
         """Set the command, time_to_go and status from position and velocity."""
 
     def remaining(self) -> tuple[Vector3, Vector3]:
-        """Return the remaining changes of position (m) and velocity (m/s), landing-site frame."""
+        """Return the remaining changes of position (m) and velocity (m/s) in the landing-site frame."""
         return self.remaining_over(self.expected_time)
 
     def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
-        """Return the same with gravity corrected over ``time`` (s); uncorrected for a time of 0 or less."""
+        """Return the remaining changes of position (m) and velocity (m/s), with gravity_correction over ``time`` (s)
+        if it is positive.
+        """
         dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
         if self.gravity_correction and time > 0.0:
@@ -125,13 +128,13 @@ class TerminalGuidance(Block, interface=True):
         return self.frozen_time_to_go > 0.0
 
     def planned_time(self, time: float) -> float:
-        """Return the time to go (s) for a command: ``time``, or frozen_time_to_go."""
+        """Return the time to go (s) for a command: frozen_time_to_go if it is set, otherwise ``time``."""
         if self.plan_frozen():
             return self.frozen_time_to_go
         return time
 
     def aim(self) -> None:
-        """Solve; with gravity_correction and an unknown time to go repeatedly until the time is consistent."""
+        """Solve; at a start with gravity_correction, repeat until the time to go is consistent."""
         self.solve()
         if self.gravity_correction and not self.started:
             for _ in range(SETTLING):
@@ -171,7 +174,7 @@ class TerminalGuidance(Block, interface=True):
             self.command.burn_duration = self.time_to_go
 
     def judge(self) -> None:
-        """Set ``started`` after a solution with time left; without one so far, time_to_go <= 0 means no solution."""
+        """Set ``started`` after a solution with time left; until then a good status is replaced by no solution."""
         if self.time_to_go > 0.0 and self.status < TerminalStatus.NOT_CONVERGED:
             self.started = True
             self.commanding = True
@@ -204,10 +207,10 @@ class TerminalGuidance(Block, interface=True):
         self.forget()
 
     def forget(self) -> None:
-        """Reset the states of a derived law to their starts."""
+        """Reset the states of a derived law to their start values; no action unless overridden."""
 
     def go_on(self, t: float, h: float) -> None:
-        """Issue the command of the sample at t + h (s)."""
+        """Process the sample at t + h (s): hold the command of a last burn, finish, or issue a new command."""
         if not self.finished:
             self.cycle = self.sample_period
             if self.cycle <= 0.0:

@@ -1,4 +1,4 @@
-"""E-guidance, or ZEM/ZEV, with the time of least propellant."""
+"""E-guidance, also called ZEM/ZEV, with the time of least propellant."""
 
 from .polynomial_guidance import PolynomialGuidance
 
@@ -8,8 +8,8 @@ class ZemZevGuidance(PolynomialGuidance):
 
         a = (6/T^2) ZEM - (2/T) ZEV
 
-    ZEM and ZEV are the errors of position and velocity that would remain without thrust. With a fixed time the law has
-    the least integral of the squared thrust acceleration.
+    ZEM and ZEV are the errors of position and velocity that would remain without thrust. For a fixed time to go T the
+    law minimises the integral of the squared thrust acceleration.
 
     Assumes constant gravity or gravity_correction.
 
