@@ -1,1 +1,1 @@
-"""Kernel functions shared by blocks."""
+"""Kernel functions that several blocks share."""

@@ -10,7 +10,7 @@ from ..kernel.matrices import Matrix
 
 
 def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, result: Matrix) -> None:
-    """Set result[row, :] to the second derivatives at the knots of one curve, by Thomas's algorithm; n <= 20."""
+    """Set result[row, :] to the second derivatives of one curve at its n <= 20 knots, by Thomas's algorithm."""
     upper = [0.0] * 20
     right = [0.0] * 20
     if clamped:
@@ -28,7 +28,9 @@ def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, res
 
 
 def cubic_value(values: Matrix, second: Matrix, row: int, n: int, step: float, x: float) -> float:
-    """Return the value of a curve at x, counted from its first knot; constant outside, the first value for NaN."""
+    """Return the value of a curve at x, counted in knots from the first; outside, the value at the nearer end; for
+    NaN, the first value.
+    """
     if not x > 0.0:
         return values[row, 0]
     if x >= step * float(n - 1):

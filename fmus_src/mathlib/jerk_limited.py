@@ -2,8 +2,8 @@
 functions.
 
 A profile begins and ends without acceleration: a ramp from the first rate to a peak rate, a coast, and a ramp to the
-last rate, up to seven arcs of constant jerk. The peak is above both rates if the angle is larger than that of the ramp
-from the first rate to the last, and below both if it is smaller; a coast is at the rate limit.
+last rate, up to seven arcs of constant jerk. The peak rate is above both other rates if the angle is larger than the
+angle of a direct ramp from the first rate to the last, and below both if it is smaller; a coast is at the rate limit.
 
 Source: Biagiotti and Melchiorri 2008, section 3.4 (double S); proof: docs/systems/satellite_pointing.md.
 """
@@ -92,11 +92,12 @@ def both_ramps(first: float, peak: float, last: float, acceleration: float, jerk
 
 
 def reach_peak(angle: float, first: float, last: float, limits: JerkLimits) -> float:
-    """Return the peak rate (rad/s), above both others, whose ramps without a coast cover an angle (rad).
+    """Return the peak rate (rad/s), above the first and last rate, at which the ramps without a coast cover an angle
+    (rad).
 
-    The angle must lie between that of the ramp from first to last and that with the peak at the limit. As a function of
-    the peak, the angle of the ramps either grows, or falls and then grows, from the first of these angles on, so there
-    is one root.
+    The angle must lie between the angle of the direct ramp from first to last rate and the angle of the ramps with the
+    peak at the limit. As a function of the peak, the angle of the ramps starts at the first of these and either grows,
+    or falls and then grows, so there is one root.
     """
     low = first
     if last > low:
@@ -114,7 +115,7 @@ def reach_peak(angle: float, first: float, last: float, limits: JerkLimits) -> f
 
 
 def plan_ramp(first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the profile of least time for a change between two rates (rad/s) with any angle."""
+    """Return the profile of least time for a change between two rates (rad/s) over any angle."""
     return RateProfile(
         angle=ramp_angle(first, last, limits.acceleration, limits.jerk),
         first_rate=first,
@@ -127,7 +128,7 @@ def plan_ramp(first: float, last: float, limits: JerkLimits) -> RateProfile:
 
 
 def plan_axis(angle: float, first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the profile of least time for an angle (rad) between two rates (rad/s) within their limit."""
+    """Return the profile of least time for an angle (rad) between two rates (rad/s) within the rate limit."""
     direct = plan_ramp(first, last, limits)
     if angle == direct.angle:
         return direct
@@ -156,10 +157,10 @@ def plan_axis(angle: float, first: float, last: float, limits: JerkLimits) -> Ra
 
 
 def plan_turn(angle: float, first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the profile of least time for an angle (rad) modulo whole turns.
+    """Return the profile of least time for an angle (rad) modulo whole revolutions.
 
-    The time grows with the distance from the angle of the ramp between both rates, so only its two neighbours are
-    compared.
+    The time grows with the distance of the angle from the angle of the direct ramp between the two rates, so only the
+    two angles next to it are compared.
     """
     direct = ramp_angle(first, last, limits.acceleration, limits.jerk)
     turns = (direct - angle) / TURN

@@ -23,7 +23,7 @@ class LeadLaw(Record):
 
 
 def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
-    """Return the compensator for times in s; lag and period must not both be 0."""
+    """Return the compensator for lead and lag times and a period in s; lag and period must not both be 0."""
     divisor = 2.0 * lag + period
     decay = (2.0 * lag - period) / divisor
     input_gain = gain * (2.0 * lead + period) / divisor
@@ -50,7 +50,7 @@ def is_same(one: LeadLaw, other: LeadLaw) -> bool:
 def change_lead(old: LeadLaw, new: LeadLaw, e: Vector3, g: Vector3) -> Vector3:
     """Return the state for which the new compensator has the output of the old one at input e.
 
-    It is 0 if the new compensator has no state.
+    The state is 0 if the output of the new compensator does not depend on it.
     """
     if abs(new.state_gain) > NO_STATE * abs(new.input_gain):
         return (old.state_gain * g + (old.input_gain - new.input_gain) * e) / new.state_gain

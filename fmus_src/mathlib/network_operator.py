@@ -132,9 +132,9 @@ def neutral(operation: int) -> float:
 
 
 def decode(matrix: Matrix, edges: list) -> int:
-    """Store the positions of a matrix's edges, in row order, in ``edges`` and return their number.
+    """Store the positions of a matrix's edges, in row-major order, in ``edges`` and return the number of edges.
 
-    Returns -1 if the matrix is not a network operator: an unknown operation, or an entry below the diagonal.
+    Returns -1 if the matrix is not a network operator, because of an unknown operation or an entry below the diagonal.
     """
     count = 0
     for row in range(SIZE):

@@ -1,8 +1,8 @@
 """Real roots of polynomials up to the fourth degree. Kernel functions.
 
-A polynomial is a list of five floats, c[0] + c[1] x + ... + c[4] x^4; leading coefficients may be 0. The turning
-points, roots of the derivative, isolate the roots, which are computed by Newton's method within a bracket (Press et al.
-2007, section 9.4) to the last bits.
+A polynomial is a list of five floats, c[0] + c[1] x + ... + c[4] x^4; leading coefficients may be 0. Turning points,
+the roots of the derivative, isolate the roots, which Newton's method within a bracket (Press et al. 2007, section 9.4)
+computes to the last bits.
 """
 
 import math
@@ -17,7 +17,9 @@ def evaluate(c: list, x: float) -> float:
 
 
 def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
-    """Store the real roots of c0 + c1 x + c2 x^2, ascending and without cancellation; return their number, 0 to 2."""
+    """Store the real roots of c0 + c1 x + c2 x^2 in ascending order, computed without cancellation; return their
+    number, 0 to 2.
+    """
     discriminant = c1 * c1 - 4.0 * c2 * c0
     if not discriminant >= 0.0:
         return 0
@@ -39,7 +41,7 @@ def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
 def root_between(c: list, low: float, high: float, rising: bool, guess: float) -> float:
     """Return the root in [low, high], where the polynomial is monotone and changes sign.
 
-    The search begins at ``guess`` if it lies between the bounds, else in the middle.
+    The search begins at ``guess`` if it lies between the bounds, otherwise at their middle.
     """
     x = guess
     if not (guess > low and guess < high):
@@ -92,17 +94,17 @@ def first_crossing(c: list, low: float, high: float, guess: float) -> float:
 
 
 def crosses(rising: bool, value: float) -> bool:
-    """Return True if a function that started below 0 and rises, or started above 0, has reached 0 with this value."""
+    """Return True if the value of a function that rises from below 0, or else falls from above 0, has reached 0."""
     if rising:
         return value >= 0.0
     return value <= 0.0
 
 
 def positive_roots(c: list, turning: list, turnings: int, roots: list) -> int:
-    """Store the positive roots at which the polynomial changes sign, ascending; return their number.
+    """Store the positive roots at which the polynomial changes sign in ascending order; return their number.
 
-    ``turning`` contains ``turnings`` turning points, ascending; those that are not positive are skipped. ``roots`` has
-    room for four.
+    ``turning`` contains ``turnings`` turning points in ascending order; nonpositive ones are skipped. ``roots`` must
+    have four elements.
     """
     count = 0
     low = 0.0

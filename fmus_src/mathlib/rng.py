@@ -3,7 +3,7 @@
 The state of the generator is a list of six floats in the block. Source: L'Ecuyer, "Good parameters and implementations
 for combined multiple recursive random number generators", Operations Research 47(1), 1999; streams and jumps: L'Ecuyer,
 Simard, Chen and Kelton, "An object-oriented random-number package with many long streams and substreams", 2002. The
-constants are those of the 2002 package: streams are 2^127 numbers apart, substreams 2^76.
+constants are taken from the 2002 package: streams are 2^127 numbers apart, substreams 2^76 numbers.
 """
 
 import math
@@ -20,7 +20,7 @@ STREAM = 51  # row of `JUMPS` with the distance of streams, 2^127
 
 
 def nearest(x: float) -> float:
-    """Return the nearest integer for x below 2^51: adding ROUND leaves no bits for the fraction."""
+    """Return the integer nearest to x below 2^51: adding ROUND leaves no bits for the fraction."""
     return x + ROUND - ROUND
 
 
@@ -33,7 +33,9 @@ def reduce_modulo(high: float, low: float, m: float) -> float:
 
 
 def high_words(v: Vector3) -> Vector3:
-    """Return the integer quotient of v / 65536; the remainder has 16 bits: products with 32-bit numbers are exact."""
+    """Return v / 65536 rounded to integers; the remainder has 16 bits, so its products with 32-bit numbers are
+    exact.
+    """
     return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 
@@ -94,9 +96,9 @@ def jump_times(state: list, count: int, first: int) -> None:
 
 
 def seed_streams(state: list, seed: int, stream: int) -> None:
-    """Set the generator to the start of stream ``seed``, substream ``stream`` (both >= 0).
+    """Set the generator to the start of substream ``stream`` of stream ``seed`` (both >= 0).
 
-    Pairs (seed, stream) with stream < 2^51 have no numbers in common.
+    Different pairs (seed, stream) with stream < 2^51 have no numbers in common.
     """
     for i in range(6):
         state[i] = 12345.0

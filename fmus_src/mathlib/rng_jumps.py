@@ -1,8 +1,7 @@
-"""Jumps of MRG32k3a by 2^76, 2^77, ..., 2^189 numbers, from which the distances of streams and substreams are
-composed.
+"""Jumps of MRG32k3a by 2^76, 2^77, ..., 2^189 numbers, which compose the distances between streams and substreams.
 
-A jump by n numbers multiplies the state by A^n with the transition matrix A of one number; A^n is a polynomial c0 + c1
-A + c2 A^2 (Cayley and Hamilton). As A is a companion matrix, (c0, c1, c2) is the first row of A^n.
+A jump by n numbers multiplies the state by A^n, where A is the transition matrix for one number; A^n is a polynomial c0
++ c1 A + c2 A^2 (Cayley and Hamilton). Since A is a companion matrix, (c0, c1, c2) is the first row of A^n.
 
 Source of A: L'Ecuyer, Operations Research 47(1), 1999.
 """

@@ -15,7 +15,7 @@ Derivation: docs/systems/robot_rendezvous.md.
 def spline(
     value: float, slope: float, end_value: float, end_slope: float, duration: float, degree: int, c: list
 ) -> None:
-    """Set c[7] to the coefficients of the spline; slopes are per unit of time, duration > 0, degree 5 or 6."""
+    """Set c[7] to the coefficients of the spline, with slopes per unit of time, a duration > 0 and degree 5 or 6."""
     d = end_value - value - slope * duration
     e = (end_slope - slope) * duration
     c[0] = value

@@ -65,7 +65,7 @@ def finite_or_zero(a: Vector3) -> Vector3:
 
 
 def all_below(v: Vector, limit: float) -> bool:
-    """Return True if all components are smaller in magnitude than a limit; False if one is NaN."""
+    """Return True if the magnitude of every component is below a limit; False if a component is NaN."""
     below = True
     for i in range(len(v)):
         below = below and abs(v[i]) < limit
@@ -73,7 +73,9 @@ def all_below(v: Vector, limit: float) -> bool:
 
 
 def smallest_component(a: Vector3) -> tuple[int, float]:
-    """Return index and value of the first component of least magnitude: the axis farthest from the vector."""
+    """Return the index and value of the first component of least magnitude, which gives the axis farthest from the
+    vector.
+    """
     k = 0
     for i in range(3):
         if abs(a[i]) < abs(a[k]):
@@ -82,7 +84,7 @@ def smallest_component(a: Vector3) -> tuple[int, float]:
 
 
 def add_along(a: Vector3, k: int, amount: float) -> Vector3:
-    """Return the vector with ``amount`` added to component k, 0 to 2."""
+    """Return the vector with ``amount`` added to component k (0 to 2)."""
     if k == 0:
         return vector(a.x + amount, a.y, a.z)
     if k == 1:

@@ -1,1 +1,1 @@
-"""Jets, gyros, wheels, pulses and thrust. Kernel functions."""
+"""Jets, gyros, wheels, pulses and lagged thrust. Kernel functions."""

@@ -1,10 +1,11 @@
 """Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and their steering. Kernel functions.
 
-Momenta are those of the cluster divided by that of one rotor, in body axes. Pair 1 turns about z in the xy plane, pair
-2 about -y in the xz plane; gimbal angles (rad) are measured from x. The three momentum components leave one of the four
-angles free. With x1 and x2 the momenta of the pairs along x, a and b their largest possible values for these y and z, u
-= x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 removes this freedom: each pair biases the other and
-stays away from its singular states |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md.
+Momenta are in body axes and in units of the momentum of one rotor. Pair 1 turns about z in the xy plane, pair 2 about
+-y in the xz plane; gimbal angles (rad) are measured from x. Three momentum components leave one of the four angles
+free. The distribution law u - v + rho (u v - 1) = 0 removes this freedom: u = x1/a and v = x2/b are the momenta of the
+two pairs along x, divided by their largest possible values for the present y and z. Under the law each pair biases the
+other and stays away from its singular states, in which the magnitude of its momentum is 0 or 2. Derivations:
+docs/systems/robot_rendezvous.md.
 
 Source: Somov 2013; Somov, Platonov and Sorokin 2005.
 """
@@ -22,7 +23,7 @@ LEAST_SQUARE = 1e-12  # of a and b; smaller values count as on a pair's surface 
 
 
 def cluster_momentum(angles: Vector4) -> Vector3:
-    """Return the momentum of the cluster divided by that of one rotor (body)."""
+    """Return the momentum of the cluster (body), in units of the momentum of one rotor."""
     first, second, third, fourth = angles
     return vector(
         cos(first) + cos(second) + cos(third) + cos(fourth),
@@ -32,7 +33,7 @@ def cluster_momentum(angles: Vector4) -> Vector3:
 
 
 def cluster_jacobian(angles: Vector4) -> Matrix:
-    """Return the derivative of the momentum with respect to the gimbal angles, 3 x 4."""
+    """Return the 3 x 4 derivative of the momentum with respect to the gimbal angles."""
     first, second, third, fourth = angles
     return matrix(
         [-sin(first), -sin(second), -sin(third), -sin(fourth)],
@@ -42,15 +43,16 @@ def cluster_jacobian(angles: Vector4) -> Matrix:
 
 
 def nearest_turn(angle: float, reference: float) -> float:
-    """Return the angle (rad) shifted by whole turns to be nearest to ``reference``."""
+    """Return the angle (rad) shifted by whole revolutions to be nearest to ``reference`` (rad)."""
     turns = (reference - angle) / math.tau
     return angle + math.tau * float(math.floor(turns + 0.5))
 
 
 def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
-    """Return True and the angles (rad) that give a momentum under the distribution law, or False and ``near``.
+    """Return (True, angles (rad)) for the angles that give a momentum under the law, or (False, ``near``) without a
+    solution.
 
-    The angles are shifted by whole turns to be nearest to ``near``.
+    The angles are shifted by whole revolutions to be nearest to ``near`` (rad).
     """
     a_square = 4.0 - momentum.y * momentum.y
     b_square = 4.0 - momentum.z * momentum.z
@@ -73,7 +75,7 @@ def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[boo
 
 
 def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
-    """Return the angles (rad) of a pair from its momentum along x and across, nearest to those of ``near``."""
+    """Return the angles (rad) of a pair, nearest to ``near``, for its momentum along x and ``across`` to x."""
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
         half = 1.0  # by a rounding error
@@ -85,11 +87,11 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
 def distribute_rates(
     angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
 ) -> tuple[bool, Vector4]:
-    """Return True and the rates (rad/s) under the law for a change of momentum momentum_rate (1/s), or False and 0.
+    """Return (True, gimbal rates (rad/s) under the law) for a momentum_rate (1/s), or (False, 0) near a singular state.
 
-    The residual f of the law decays as f' = -gain f. The result is False if a divisor is less than ``least``: the sines
-    of the angle between the rotors of each pair (1 for best steering) and the divisor of the law, 2 at the isotropic
-    angles.
+    The residual f of the law decays as f' = -gain f. The first value is False if a divisor is less than ``least``. The
+    divisors are the sine of the angle between the rotors of each pair (1 for best steering) and the divisor of the law
+    (2 at the isotropic angles).
     """
     first, second, third, fourth = angles
     none = vector(0.0, 0.0, 0.0, 0.0)
@@ -141,7 +143,7 @@ def rotor_weights(bias: float) -> Vector4:
 
 
 def gram_of(jacobian: Matrix, bias: float) -> Matrix:
-    """Return A W A' (3 x 3) of a 3 x 4 matrix A; W has rotor_weights on its diagonal."""
+    """Return A W A' (3 x 3) of a 3 x 4 matrix A, where W has rotor_weights on its diagonal."""
     return add_product(zeros(3, 3), jacobian @ diagonal(rotor_weights(bias)), jacobian.T)
 
 
@@ -157,14 +159,14 @@ def determinant_of(m: Matrix) -> float:
 def robust_rates(
     angles: Vector4, momentum_rate: Vector3, damping: float, threshold: float, swing: float, time: float
 ) -> tuple[Vector4, float]:
-    """Return the rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate and the singularity measure m.
+    """Return the gimbal rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate and the singularity measure m.
 
-    The rates are bounded everywhere, and exact for k = 0. With lack = 1 - m/threshold, k = damping lack^2 for m below
-    the threshold and 0 above (Nakamura and Hanafusa 1986). E and W differ from unit matrices by terms that lead out of
-    states in which the required torque cannot be produced (Wie 2005): E has off-diagonal elements swing sin(pi/2 time +
-    phase), which move the gimbals to and fro; W = 1 + swing lack for the first rotor of each pair and 1 - swing lack
-    for the second, which separates rotors that point the same way. A swing below 0.5 keeps both matrices positive
-    definite.
+    The rates are bounded everywhere, and exact for k = 0. With lack = 1 - m/threshold, k is damping lack^2 for m below
+    the threshold and 0 above (Nakamura and Hanafusa 1986). E and W differ from identity matrices by terms that lead out
+    of states in which the required torque cannot be produced (Wie 2005). The off-diagonal elements of E are swing
+    sin(pi/2 time + phase), which makes the gimbals oscillate; the diagonal of W is 1 + swing lack for the first rotor
+    of each pair and 1 - swing lack for the second, which separates rotors that point the same way. A swing below 0.5
+    keeps both matrices positive definite.
     """
     jacobian = cluster_jacobian(angles)
     measure = singularity_measure(angles)

@@ -1,10 +1,10 @@
-"""Eight jets at the corners of a box: their forces and torques, and the allocation of a wrench. Kernel functions.
+"""Eight jets at the corners of a box: forces and torques, and allocation of a wrench. Kernel functions.
 
-Jet p is at rho_p = S_p (bx, by, bz) and its nozzle points along e_p = S_p (ca cb, ca sb, sa), with the signs S_p of its
-corner, tilt a and azimuth b; a thrust p_p >= 0 gives the force -p_p e_p and the torque -p_p rho_p x e_p. So [P; M] = B
-p, where each row of B is a strength times one of the sign rows X, Y, Z, YZ, ZX and XY. These are orthogonal, so the
-pseudo-inverse is signs'/(8 strength), and the null space is spanned by the row of ones and XYZ. Derivations:
-docs/systems/robot_rendezvous.md.
+Jet p is at rho_p = S_p (bx, by, bz) and its nozzle points along e_p = S_p (ca cb, ca sb, sa), where S_p are the signs
+of its corner and c and s the cosine and sine of tilt a and azimuth b; a thrust p_p >= 0 gives the force -p_p e_p and
+the torque -p_p rho_p x e_p. So [P; M] = B p, where each row of B is a strength times one of the rows of signs X, Y, Z,
+YZ, ZX and XY. The rows are orthogonal, so the columns of the pseudo-inverse are signs'/(8 strength), and the row of
+ones and XYZ span the null space. Derivations: docs/systems/robot_rendezvous.md.
 
 Source: Somov, Butyrin, Somov and Somova (docs/systems/robot_rendezvous.md), whose D p = t has the opposite sign.
 """
@@ -36,7 +36,7 @@ class Wrench(Record):
 
 
 class JetStrength(Record):
-    """Force and torque per thrust along each axis, for all jets with a row of signs, divided by their number.
+    """Force along, and torque about, each axis per unit of thrust of a jet, with the sign of the first jet.
 
     A component of 0 means that the jets cannot give this force or torque.
     """
@@ -56,7 +56,7 @@ class JetStrength(Record):
 
 
 def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
-    """Return the strength of jets with tilt and azimuth (rad) and the first jet at arm = (bx, by, bz) (m, body)."""
+    """Return the strength of jets with tilt and azimuth (rad) and the first jet at ``arm`` (m, body)."""
     axis = vector(cos(tilt) * cos(azimuth), cos(tilt) * sin(azimuth), sin(tilt))
     reach = abs(arm.x) + abs(arm.y) + abs(arm.z)
     return JetStrength(
@@ -75,7 +75,7 @@ def without_negligible(v: Vector3, limit: float) -> Vector3:
 
 
 def signed_sum(signs: tuple, thrust: list) -> float:
-    """Return the sum of the thrusts with a row of signs."""
+    """Return the sum of the thrusts, each multiplied by its sign in a row of signs."""
     total = 0.0
     for p in range(JETS):
         total = total + signs[p] * thrust[p]
@@ -83,7 +83,7 @@ def signed_sum(signs: tuple, thrust: list) -> float:
 
 
 def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
-    """Return the wrench B thrust (N, N m, body)."""
+    """Return the wrench B thrust (N, N m, body) of the jets."""
     return Wrench(
         force=strength.force * vector(signed_sum(X, thrust), signed_sum(Y, thrust), signed_sum(Z, thrust)),
         torque=strength.torque * vector(signed_sum(YZ, thrust), signed_sum(ZX, thrust), signed_sum(XY, thrust)),
@@ -91,7 +91,7 @@ def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
 
 
 def add_component(signs: tuple, strength: float, demand: float, thrust: list) -> bool:
-    """Add to thrust the part that gives a force or torque along one axis; return True if the jets can give it."""
+    """Add to ``thrust`` the share that gives a force or torque along one axis; return True if the jets can give it."""
     if strength == 0.0:
         return demand == 0.0
     fraction = demand / (8.0 * strength)
@@ -120,7 +120,7 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
     """Raise the thrusts of a pseudo-inverse until the least is 0, then scale them by maximum/largest if this is below
     1.
 
-    Returns the scale, 1 without scaling. Equal thrusts give no wrench, so the resulting wrench is the original one
+    Returns the scale, 1 without scaling. Equal thrusts give no wrench, so the resulting wrench is the original wrench
     times the scale. This is the rule of the paper.
     """
     minimum = thrust[0]
@@ -141,14 +141,15 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
 
 
 def least_propellant(thrust: list, maximum: float) -> float:
-    """Change the thrusts of a pseudo-inverse to those of least sum within 0 and maximum, for the same wrench.
+    """Change the thrusts of a pseudo-inverse to the thrusts of least sum, from 0 to ``maximum`` each, for the same
+    wrench.
 
-    For opposite corners i and 9 - i let s = p_i + p_(9-i) and d = p_i - p_(9-i), with n the signs of the second null
-    vector and u = n d. A shift S of all s and l of all u gives no wrench; thrusts are not negative if |u + l| <= s + S.
-    The best S for an l is max(A + l, Q - l) with A = max(u - s) and Q = max(-u - s), and the sum of thrusts is 4
-    S, least at l = (Q - A)/2. The largest thrust is then max(A + D, Q + C)/2 with C = max(u + s) and D = max(s - u),
-    and no other l and S give less: the optimum without a maximum respects the maximum whenever that is possible.
-    Otherwise the wrench is scaled. Returns the scale, 1 without scaling.
+    For opposite corners i and 9 - i let s = p_i + p_(9-i), d = p_i - p_(9-i) and u = n d, with the signs n of the
+    second null vector. A shift S of all s and l of all u gives no wrench; thrusts are not negative if |u + l| <= s + S.
+    The best S for an l is max(A + l, Q - l) with A = max(u - s) and Q = max(-u - s). The sum of thrusts is 4 S, and it
+    is least at l = (Q - A)/2. The largest thrust is then max(A + D, Q + C)/2 with C = max(u + s) and D = max(s - u),
+    and no other l and S make it smaller, so the optimum without a maximum respects the maximum whenever this is
+    possible. Otherwise the wrench is scaled. Returns the scale, 1 without scaling.
     """
     a = -math.inf
     q = -math.inf
@@ -182,7 +183,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
 
 
 def within(thrust: float, maximum: float) -> float:
-    """Return the thrust limited to 0 and maximum, which rounding errors may exceed."""
+    """Return the thrust limited to the range from 0 to ``maximum``, which rounding errors may exceed."""
     if not thrust > 0.0:
         return 0.0
     if thrust > maximum:
@@ -191,11 +192,11 @@ def within(thrust: float, maximum: float) -> float:
 
 
 def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
-    """Return the attainable point nearest to a force (N) on the lattice of forces without torque, and a scale.
+    """Return the attainable lattice point (integers n) nearest to a force (N) without torque, and a scale.
 
-    The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable with thrusts of
-    at most ``highest`` quanta if |n_i| + |n_j| <= 2 highest for each two axes. A force beyond that is scaled first; the
-    scale is 1 without scaling.
+    A lattice point is the force 2 quantum strength[i] n[i] with integers n all even or all odd; it is attainable with
+    thrusts of at most ``highest`` quanta if |n_i| + |n_j| <= 2 highest for every pair of axes. A force beyond this
+    limit is first multiplied by the scale, which is otherwise 1.
     """
     exact = [0.0] * 3
     trial = [0.0] * 3
@@ -235,7 +236,7 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
 
 
 def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
-    """Set thrust to the solution of least propellant for a point of the lattice, in whole quanta (N)."""
+    """Set ``thrust`` (N) to the solution of least propellant for a lattice point, in whole quanta."""
     largest = -math.inf
     minimum = math.inf
     u = [0.0] * 4

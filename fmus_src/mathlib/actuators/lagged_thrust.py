@@ -15,9 +15,9 @@ class LaggedThrust(Record):
 
 
 def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> LaggedThrust:
-    """Return the thrust over h (s) for a constant command (N), starting from ``delivered`` (N).
+    """Return the thrust over h (s) for a constant command (N), starting from the thrust ``delivered`` (N).
 
-    With a lag (s) of 0 the thrust equals the command.
+    With a ``lag`` (s) of 0 the thrust equals the command.
     """
     excess = 0.0
     half = 1.0

@@ -4,7 +4,9 @@ from ..vectors import Vector3, vector
 
 
 def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
-    """Return the time of the first end of a pulse after ``time`` and before ``end``, else ``end``; s from the start."""
+    """Return the time (s since the start of the pulses) at which the next pulse after ``time`` ends, at most
+    ``end``.
+    """
     first = end
     for i in range(3):
         length = abs(pulses[i])
@@ -14,7 +16,7 @@ def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
 
 
 def limit_pulse(length: float, h: float) -> float:
-    """Return the remaining signed length (s) of one pulse after h (s)."""
+    """Return the signed length (s) that remains of one pulse after h (s)."""
     if length > h:
         return length - h
     if length < -h:
@@ -23,10 +25,10 @@ def limit_pulse(length: float, h: float) -> float:
 
 
 def left_after(pulses: Vector3, h: float) -> Vector3:
-    """Return the remaining signed lengths (s) of the pulses after h (s)."""
+    """Return the signed lengths (s) that remain of the pulses after h (s)."""
     return vector(limit_pulse(pulses.x, h), limit_pulse(pulses.y, h), limit_pulse(pulses.z, h))
 
 
 def lengths_of(pulses: Vector3) -> Vector3:
-    """Return the lengths (s) without signs."""
+    """Return the magnitudes of the signed lengths (s)."""
     return vector(abs(pulses.x), abs(pulses.y), abs(pulses.z))

@@ -1,7 +1,7 @@
 """Four reaction wheels: spin axes, friction, and allocation of a torque. Kernel functions.
 
-The spin axes g are the columns of a 3 x 4 matrix A, unit vectors in body axes. Motor torques u (N m) on the wheels give
-the body the torque -A u. Torques along the null direction n, A n = 0, do not turn the body.
+The spin axes g are the columns of a 3 x 4 matrix A, unit vectors in body axes. Motor torques u (N m) on the wheels
+exert the torque -A u on the body. Motor torques along the null direction n, with A n = 0, exert no torque on the body.
 
 Source: Markley, Reynolds, Liu and Lebsock 2010 (minimax); Schaub and Junkins 2018, section 8.
 """
@@ -16,7 +16,9 @@ SMALLEST_VOLUME = 1e-9  # of three unit axes; below it they count as coplanar
 
 
 def unit_axes(rows: Matrix) -> Matrix:
-    """Return A (3 x 4) from axes of any length by row (4 x 3); an axis of length 0 becomes a column of zeros."""
+    """Return A (3 x 4) from the axes, of any length, in the rows of a 4 x 3 matrix; an axis of length 0 gives a
+    column of zeros.
+    """
     a = zeros(3, WHEELS)
     for j in range(WHEELS):
         length = norm(rows[j, 0:3])
@@ -26,7 +28,7 @@ def unit_axes(rows: Matrix) -> Matrix:
 
 
 def largest_size(v: Vector4) -> float:
-    """Return the largest magnitude of an element."""
+    """Return the largest magnitude of the elements."""
     largest = 0.0
     for j in range(WHEELS):
         if abs(v[j]) > largest:
@@ -37,7 +39,7 @@ def largest_size(v: Vector4) -> float:
 def drag_torque(speed: float, viscous: float, coulomb: float, band: float) -> float:
     """Return the friction torque (N m) against a wheel's speed (rad/s): viscous plus Coulomb friction.
 
-    Within the band, Coulomb friction is proportional to speed.
+    Below the speed ``band``, Coulomb friction is proportional to speed.
     """
     return -viscous * speed - coulomb * clip(speed / band, -1.0, 1.0)
 
@@ -69,7 +71,7 @@ def null_direction(a: Matrix) -> Vector4:
 
 
 def pseudo_inverse(a: Matrix) -> tuple[Matrix, bool]:
-    """Return A' (A A')^-1 (4 x 3), and True if it exists."""
+    """Return (A' (A A')^-1, True), with a 4 x 3 matrix, or False as the second value if no pseudo-inverse exists."""
     gram = a @ a.T
     determinant = dot(gram[0:3, 0], cross(gram[0:3, 1], gram[0:3, 2]))
     inverted, invertible = inverse(gram)
@@ -99,5 +101,5 @@ def minimax_shift(u: Vector4, n: Vector4) -> float:
 
 
 def body_torque(a: Matrix, u: Vector4) -> Vector3:
-    """Return the torque (N m, body) on the body for motor torques u (N m) on the wheels."""
+    """Return the torque (N m, body) that motor torques u (N m) on the wheels exert on the body."""
     return -(a @ u)

@@ -1,8 +1,8 @@
-"""Direction that follows a moving goal, as a vehicle's attitude follows its command. Kernel functions.
+"""Pursuit of a moving goal by a direction, such as a vehicle's attitude that follows its command. Kernel functions.
 
-The goal at time s is the unit vector along base + rate s. The direction turns towards it along the great circle at the
-rate angle/response, limited to ``limit`` (rad/s). A response or limit of 0 means none; without response the direction
-turns at the limit until it reaches the goal. No particular frame is assumed.
+The goal at time s is the unit vector along base + rate s. The direction turns towards the goal along the great circle
+at the rate angle/response, limited to ``limit`` (rad/s). A ``response`` or ``limit`` of 0 means that there is none;
+without a response the direction turns at the limit until it reaches the goal. No particular frame is assumed.
 """
 
 from ...kernel.functions import atan2
@@ -22,7 +22,7 @@ def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vecto
 
 
 def turning(direction: Vector3, goal: Vector3, response: float, limit: float) -> tuple[float, Vector3]:
-    """Return the angle to the goal (rad) and the derivative (1/s) of the direction.
+    """Return the angle to the goal (rad) and the time derivative (1/s) of the direction.
 
     For opposite vectors the direction turns towards the coordinate axis farthest from it.
     """
@@ -54,7 +54,7 @@ class Pursuit(Record):
 def pursuit_rate(
     t: float, direction: Vector3, base: Vector3, rate: Vector3, last_goal: Vector3, response: float, limit: float
 ) -> Vector3:
-    """Return the derivative (1/s) of the direction at time t (s)."""
+    """Return the time derivative (1/s) of the direction at time t (s)."""
     _, slope = turning(direction, goal_at(base, rate, t, last_goal), response, limit)
     return slope
 
@@ -62,7 +62,7 @@ def pursuit_rate(
 def pursue(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Pursuit:
-    """Return the pursuit after one Runge-Kutta step of fourth order from time s to s + h."""
+    """Return the pursuit after one fourth-order Runge-Kutta step from time s to s + h."""
     goal = goal_at(base, rate, s, direction)
     angle, k1 = turning(direction, goal, response, limit)
     turned = runge_kutta_4_from(k1, pursuit_rate, s, direction, h, base, rate, goal, response, limit)
@@ -72,11 +72,11 @@ def pursue(
 def follow(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Vector3:
-    """Return a unit vector turned from time s to s + h; a response other than 0 must not be shorter than h.
+    """Return a unit vector turned from time s to s + h; a response, unless it is 0, must be at least h.
 
-    The law has a kink where angle/response equals the limit. A step across it is divided there by linear interpolation
-    of the angle; the slope is continuous, so fourth order is preserved. Without response, the last two steps before the
-    goal is reached turn directly to its future position.
+    The law has a kink where angle/response equals the limit. A step across the kink is divided there by linear
+    interpolation of the angle; the slope is continuous, so fourth order is preserved. Without a response, the last two
+    steps before the goal is reached turn directly to its future position.
     """
     if response <= 0.0 and limit <= 0.0:
         return goal_at(base, rate, s + h, direction)

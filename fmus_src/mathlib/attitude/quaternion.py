@@ -18,7 +18,7 @@ def quaternion(scalar: float, e: Vector3) -> Vector4:
 
 
 def multiply(a: Vector4, b: Vector4) -> Vector4:
-    """Return Hamilton's product a b: the rotation b followed by a."""
+    """Return Hamilton's product a b, which is the rotation b followed by a."""
     return vector(
         a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -33,7 +33,7 @@ def conjugate(q: Vector4) -> Vector4:
 
 
 def normalise(q: Vector4) -> Vector4:
-    """Return q scaled to length 1, or the identity rotation if its length is 0 or NaN."""
+    """Return q scaled to length 1, or the identity rotation if the length of q is 0 or NaN."""
     largest = 0.0
     for i in range(4):
         size = abs(q[i])
@@ -46,7 +46,7 @@ def normalise(q: Vector4) -> Vector4:
 
 
 def is_attitude(q: Vector4) -> bool:
-    """Return True if a finite q is at least `SHORTEST` long, so that it can be normalised to an attitude."""
+    """Return True if a finite q is at least `SHORTEST` long, so that it defines an attitude after normalisation."""
     for i in range(4):
         if abs(q[i]) >= SHORTEST:
             return True  # avoids overflow of squares
@@ -60,17 +60,17 @@ def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
 
 
 def to_reference(q: Vector4, v: Vector3) -> Vector3:
-    """Return q v q*: a vector in body components transformed to the reference frame."""
+    """Return q v q*, a vector in body components transformed to the reference frame."""
     return turn(q.w, vector(q.x, q.y, q.z), v)
 
 
 def to_body(q: Vector4, v: Vector3) -> Vector3:
-    """Return q* v q: a vector in reference components transformed to the body frame."""
+    """Return q* v q, a vector in reference components transformed to the body frame."""
     return turn(q.w, vector(-q.x, -q.y, -q.z), v)
 
 
 def from_rotation_vector(rotation: Vector3) -> Vector4:
-    """Return the quaternion of a rotation vector: axis times angle (rad)."""
+    """Return the quaternion of a rotation vector, axis times angle (rad)."""
     angle = norm(rotation)
     scale = 0.5
     if angle > 0.0:
@@ -99,16 +99,16 @@ def difference(reference: Vector4, q: Vector4) -> Vector4:
 
 
 def angle_error(reference: Vector4, q: Vector4) -> Vector3:
-    """Return the axis times the sine of the angle of the rotation from ``reference`` to q (rad, body).
+    """Return the axis times the sine of the angle of the rotation from ``reference`` to q (body).
 
-    It is 2 e0 e of (e0, e) = reference* q.
+    With (e0, e) = reference* q the result is 2 e0 e.
     """
     rotation = difference(reference, q)
     return 2.0 * rotation.w * rotation[1:4]
 
 
 def to_rodrigues(q: Vector4) -> Vector3:
-    """Return the modified Rodrigues parameters e tan(angle/4) of the rotation by at most pi."""
+    """Return the modified Rodrigues parameters e tan(angle/4) of the rotation q, with an angle of at most pi."""
     sign = 1.0
     if q.w < 0.0:
         sign = -1.0

@@ -8,15 +8,15 @@ ALIGNED = 1e-12  # sine below which two directions count as parallel
 
 
 class TurningDirection(Record):
-    """Rotating direction with its rate."""
+    """Rotating direction and its rate."""
 
     direction = Field(Vector3, unit="1", description="direction at the reference time, unit vector")
     rate = Field(Vector3, unit="1/s", description="time derivative of the direction")
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:
-    """Return a unit vector turned towards the unit vector goal by at most ``largest`` (rad), and the remaining angle
-    (rad).
+    """Return a unit vector turned towards the unit vector ``goal`` by at most ``largest`` (rad), and the angle (rad)
+    that remains.
 
     For opposite vectors the rotation is towards the coordinate axis farthest from them.
     """
@@ -35,9 +35,9 @@ def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vec
 
 
 def rotation_between(start: Vector3, goal: Vector3) -> tuple[Vector3, float]:
-    """Return axis (unit vector) and angle (rad) of the shortest rotation from one direction to another.
+    """Return the axis (unit vector) and angle (rad) of the shortest rotation from one direction to another.
 
-    Parallel directions have an axis perpendicular to them. The lengths must not be 0.
+    For parallel directions the axis is perpendicular to both. The lengths must not be 0.
     """
     size = norm(start) * norm(goal)
     axis = cross(start, goal)

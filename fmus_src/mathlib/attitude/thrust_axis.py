@@ -1,7 +1,8 @@
 """Thrust axis turned by angular accelerations. Kernel functions; no particular frame is assumed.
 
 The axis d, a unit vector, turns at the angular rate w (rad/s) perpendicular to it: d' = w x d. w' is the angular
-acceleration (rad/s2) without its component along d, limited in magnitude (limit 0: none). Roll about d is not modelled.
+acceleration (rad/s2) without its component along d, limited in magnitude (a limit of 0: unlimited). Roll about d is not
+modelled.
 """
 
 from ...kernel.integrators import runge_kutta_4
@@ -25,7 +26,9 @@ def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float
 
 
 def turn_axis(s: AxisState, acceleration: Vector3, limit: float, h: float) -> AxisState:
-    """Return axis and angular rate after h (s) under constant acceleration by one Runge-Kutta step of fourth order."""
+    """Return axis and angular rate after h (s) under constant angular acceleration, by one fourth-order Runge-Kutta
+    step.
+    """
     end = runge_kutta_4(axis_derivatives, 0.0, s, h, acceleration, limit)
     length = norm(end.axis)
     if not length > 0.0:

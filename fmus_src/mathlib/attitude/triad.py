@@ -6,7 +6,7 @@ from .quaternion import conjugate, multiply, normalise, quaternion
 
 
 class AxesAttitude(Record):
-    """Attitude determined by two directions, and whether it exists."""
+    """Attitude determined by two directions, and a flag that it exists."""
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     exists = Field(bool, description="true: directions far enough from parallel in both frames")
@@ -32,7 +32,9 @@ def from_axes(x: Vector3, y: Vector3, z: Vector3) -> Vector4:
 
 
 def from_pair(first: Vector3, second: Vector3) -> Vector4:
-    """Return the attitude with x along the first vector and z along first x second; they must not be parallel."""
+    """Return the attitude with x along the first vector and z along first x second, for vectors that are not
+    parallel.
+    """
     x = first / norm(first)
     across = cross(first, second)
     z = across / norm(across)
@@ -40,15 +42,15 @@ def from_pair(first: Vector3, second: Vector3) -> Vector4:
 
 
 def parallel(a: Vector3, b: Vector3, sine: float) -> bool:
-    """Return True if the sine of the angle between two vectors is not above ``sine``, or one vector is 0."""
+    """Return True if the sine of the angle between two vectors is at most ``sine``, or if one vector is 0."""
     return not norm(cross(a, b)) > sine * norm(a) * norm(b)
 
 
 def triad(body_first: Vector3, body_second: Vector3, first: Vector3, second: Vector3, sine: float) -> AxesAttitude:
     """Return the attitude that aligns the first direction exactly and the second within their plane.
 
-    Each direction, of any length, is an argument in body and in inertial axes; ``sine`` is the sine of the smallest
-    angle allowed between the two. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
+    Each direction, of any length, is passed in body axes and in inertial axes; ``sine`` is the sine of the smallest
+    angle allowed between the two directions. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
     """
     if parallel(body_first, body_second, sine) or parallel(first, second, sine):
         return AxesAttitude(quaternion=vector(1.0, 0.0, 0.0, 0.0), exists=False)

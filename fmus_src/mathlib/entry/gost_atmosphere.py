@@ -1,9 +1,10 @@
 """Standard atmosphere of GOST 4401-81. Kernel functions.
 
-Up to 85 km of geopotential height its layers are those of the US Standard Atmosphere 1976; above, the temperature is
-constant at 186.65 K up to 94 km. Above 94 km of height, where the molar mass decreases, the logarithm of the density is
-linear between rows of the standard's table, within 0.8 % of the rows in between; the speed of sound, for which the
-standard has no values there, is constant. Source: GOST 4401-81, "Standard atmosphere. Parameters" (in Russian).
+Up to 85 km of geopotential height the layers are the same as in the US Standard Atmosphere 1976; from there to 94 km of
+height the temperature is constant at 186.65 K. Above 94 km, where the molar mass decreases, the logarithm of the
+density is linear between selected rows of the standard's table, within 0.8 % of the omitted rows; the speed of sound,
+for which the standard has no values there, is constant. Source: GOST 4401-81, "Standard atmosphere. Parameters" (in
+Russian).
 """
 
 import math
@@ -18,7 +19,7 @@ ROWS = 14
 
 
 def tabulated_density(h: float) -> float:
-    """Return the density (kg/m3) at a height h (m) above 94 km, constant above 130 km."""
+    """Return the density (kg/m3) at a height h (m) above 94 km; constant above 130 km."""
     height = [94.0, 95.0, 96.0, 98.0, 100.0, 104.0, 106.0, 108.0, 110.0, 113.0, 116.0, 120.0, 125.0, 130.0]  # km
     density = [
         1.67840e-6, 1.40510e-6, 1.16617e-6, 7.99924e-7, 5.54951e-7, 2.75614e-7, 1.86514e-7,

@@ -1,8 +1,8 @@
 """Motion over a rotating, spherical Earth, and attitude relative to the velocity. Kernel functions.
 
-Velocity axes: x along the velocity, y up in the vertical plane through it, z = x x y. The attitude is bank, sideslip
-and angle of attack: rotations about velocity x, then body -y and z as written in `body_axes`. Equations:
-docs/systems/entry_attitude.md.
+Velocity axes: x along the velocity, y up in the vertical plane through it, z = x x y. The attitude consists of bank,
+sideslip and angle of attack, which are rotations about velocity x and then about body -y and z, as in `body_axes`.
+Equations: docs/systems/entry_attitude.md.
 
 Source: Lapin, thesis, chapter 1.2.
 """
@@ -81,7 +81,7 @@ def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
 
 
 def evaluate_path(s: EntryState) -> PathFunctions:
-    """Return sines, cosines and tangents of the angles of a state, which the functions below share."""
+    """Return the sines, cosines and tangents of a state's angles, which the functions below share."""
     return PathFunctions(
         sin_path=sin(s.flight_path_angle),
         cos_path=cos(s.flight_path_angle),
@@ -94,7 +94,7 @@ def evaluate_path(s: EntryState) -> PathFunctions:
 
 
 def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float, earth_rate: float) -> Vector3:
-    """Return gravity and the accelerations of the Earth's rotation (m/s2, velocity axes)."""
+    """Return gravity and the accelerations due to the Earth's rotation (m/s2, velocity axes)."""
     gravity = gravitational_parameter / (s.radius * s.radius)
     coriolis = 2.0 * s.speed * earth_rate
     transport = earth_rate * earth_rate * s.radius * a.cos_latitude

@@ -1,7 +1,8 @@
-"""Coefficients of a spherical cap in supersonic flow by Newton's law, for tables declared by blocks. Not kernels.
+"""Aerodynamic coefficients of a spherical cap in supersonic flow by Newtonian theory, for tables declared by blocks.
 
 The pressure coefficient on the windward side is Cp sin^2 of the local inclination, with Cp at the stagnation point
-behind a normal shock (Rayleigh's pitot formula). With k = sin^2 of the cap's half-angle, and a fully windward cap:
+behind a normal shock (Rayleigh's pitot formula). With the total angle of attack a, k = sin^2 of the cap's half-angle,
+and a fully windward cap:
 
     Cx = Cp (cos^2 a (2 - k)/2 + sin^2 a k/4)        Cy = Cp (k/2) sin a cos a
 
@@ -25,10 +26,10 @@ def stagnation_coefficient(mach: float) -> float:
 def cap_tables(
     base_radius: float, cap_radius: float, machs: list[float], degrees: list[float]
 ) -> tuple[list[float], list[float]]:
-    """Return tables of Cx and Cy of a cap (radii in m), with a row per Mach number and a column per total angle of
+    """Return tables of Cx and Cy of a cap (radii in m), with one row per Mach number and one column per total angle of
     attack.
 
-    Angles are in deg; values are rounded to six decimals like the published table.
+    Angles are in degrees; values are rounded to six decimals, as in the published table.
     """
     k = (base_radius / cap_radius) ** 2
     axial, normal = [], []

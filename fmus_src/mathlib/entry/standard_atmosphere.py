@@ -26,7 +26,7 @@ class Air(Record):
 
 
 def thin_density(h: float) -> float:
-    """Return the density (kg/m3) at a height h (m) above 86 km, constant above 130 km."""
+    """Return the density (kg/m3) at a height h (m) above 86 km; constant above 130 km."""
     height = [86000.0, 90000.0, 95000.0, 100000.0, 105000.0, 110000.0, 115000.0, 120000.0, 130000.0]
     density = [6.958e-6, 3.416e-6, 1.393e-6, 5.604e-7, 2.325e-7, 9.708e-8, 4.289e-8, 2.222e-8, 8.152e-9]
     if h >= height[8]:

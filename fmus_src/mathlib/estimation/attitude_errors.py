@@ -19,11 +19,11 @@ SMALL = 1e-6  # rad, below which the factors of [turn] are those of zero rotatio
 
 
 def transition(turn: Vector3, h: float) -> Matrix:
-    """Return the transition matrix F (6 x 6) over h (s), in which the body turns by the rotation vector ``turn``
+    """Return the transition matrix F (6 x 6) over h (s), in which the body rotates by the rotation vector ``turn``
     (rad).
 
-    The rotation error turns back with the body; a bias error adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3
-    [turn]^2) times itself, with a = |turn|.
+    The rotation error in body axes rotates by -turn; a bias error, times -h (1 - (1 - cos a)/a^2 [turn] + (a - sin
+    a)/a^3 [turn]^2) with a = |turn|, is added to it.
     """
     f = identity(6)
     q = from_rotation_vector(turn)
@@ -61,7 +61,7 @@ def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: floa
 
 
 def standard_deviations(p: Matrix, k: int) -> Vector3:
-    """Return the standard deviations of the states k to k + 2; 0 for a variance that rounding has made negative."""
+    """Return the standard deviations of the states k to k + 2; 0 for a variance that is negative due to rounding."""
     variances = vector(p[k, k], p[k + 1, k + 1], p[k + 2, k + 2])
     deviations = [0.0] * 3
     for i in range(3):

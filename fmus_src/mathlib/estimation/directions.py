@@ -20,7 +20,7 @@ def sensitivity(predicted: Vector3) -> Matrix:
 
 
 def innovation(q: Vector4, reference_inertial: Vector3, measured_body: Vector3) -> Vector3:
-    """Return measured minus predicted direction, both normalised; neither may be 0."""
+    """Return the measured minus the predicted direction, both normalised; neither may be 0."""
     return measured_body / norm(measured_body) - to_body(q, reference_inertial / norm(reference_inertial))
 
 

@@ -37,8 +37,8 @@ def dead_reckon(
 
 
 def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """Return the error b + diag(k) f + w x f of specific force f, with bias b (m/s2), scale factors k and rotation w
-    (rad).
+    """Return the error b + diag(k) f + w x f (m/s2) of the specific force f, with bias b (m/s2), scale factors k and
+    rotation w (rad).
     """
     return add_cross(bias + scale_factor * f, rotation, f)
 
@@ -46,8 +46,8 @@ def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: 
 def propagate(
     position: Vector3, velocity: Vector3, added: Vector3, up: Vector3, gradient: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Return the errors of position and velocity after h (s), where sensor errors have ``added`` (m/s2) to specific
-    force.
+    """Return the errors of position and velocity after h (s) in which sensor errors have added ``added`` (m/s2) to
+    specific force.
     """
     a = added
     if gradient > 0.0:
@@ -56,8 +56,8 @@ def propagate(
 
 
 def start_errors(position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> Matrix:
-    """Return the initial covariance P (15 x 15) from the standard deviations of five states with three equal axes
-    each.
+    """Return the initial covariance P (15 x 15) from the standard deviations of five vectors, each equal for the
+    three axes.
     """
     p = zeros(STATES, STATES)
     p[POSITION, POSITION] = position * position * identity(3)
@@ -75,12 +75,12 @@ def predict_errors(
 
     States: position, velocity, and the errors b + diag(k) f + w x f of measured specific force: bias b, scale factors k
     and a small rotation w, constant except for a random walk of b of density ``drift`` (m2/s5). Velocity increments
-    also have white errors of density ``walk`` (m2/s3). If ``sensing`` is False, no specific force is measured and these
-    errors have no effect. A ``gradient`` of gravity (1/s2, along the unit vector ``up``) adds gradient (3 up up' - 1)
-    times the position error after half a step to the acceleration, as in dead reckoning by the trapezoidal rule; 0
+    also have white errors of density ``walk`` (m2/s3). If ``sensing`` is False, no specific force is measured and the
+    sensor errors have no effect. A ``gradient`` of gravity (1/s2, along the unit vector ``up``) adds gradient (3 up up'
+    - 1) times the position error after half a step to the acceleration, as in dead reckoning by the trapezoidal rule; 0
     omits it.
 
-    P becomes F P F' + Q, where F is `propagate`, applied first to each column of P and then to the rows.
+    The result is F P F' + Q, where `propagate` applies F, first to each column of P and then to each row.
     """
     a = vector(0.0, 0.0, 0.0)
     for j in range(STATES):  # F P

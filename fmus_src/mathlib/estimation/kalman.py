@@ -2,8 +2,8 @@
 
 The estimate x is a column of n elements with covariance P, n x n. Measurements are scalars z = h x + error with a row
 h, processed one after another; this needs no matrix inverse and is exact for independent errors. `update` processes a
-linear measurement in one call; `innovation_variance` and `take_in` divide it in two, for a gate in between and for
-nonlinear measurements.
+linear measurement in one call; `innovation_variance` and `take_in` divide the update into two calls, for a gate between
+them and for nonlinear measurements.
 
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 5.4 and 7.4.
 """
@@ -26,10 +26,10 @@ def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
 
 
 def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Matrix]:
-    """Return the gain K = P h' / S and the covariance after a scalar with the variance S > 0 of `innovation_variance`.
+    """Return the gain K = P h'/S and the covariance after a scalar with the innovation variance S > 0.
 
-    The caller updates x to x + K innovation. The covariance has Joseph's form, P = (1 - K h) P (1 - K h)' + K variance
-    K', which stays symmetric and positive despite rounding of the gain.
+    The caller updates x to x + K innovation. The covariance is computed in the Joseph form, P = (1 - K h) P (1 - K h)'
+    + K variance K', which stays symmetric and positive despite rounding of the gain.
     """
     ph = p @ h.T
     k = ph / s

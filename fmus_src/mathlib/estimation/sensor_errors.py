@@ -12,8 +12,8 @@ LATEST = 4  # largest latency, in samples
 def next_markov(error: Vector3, elapsed: float, time: float, sigma: float, numbers: Vector3) -> Vector3:
     """Return a first-order Gauss-Markov error after ``elapsed`` (s), discretised exactly.
 
-    ``time`` (s) is its correlation time, with correlation e^(-t/time), and ``sigma`` its standard deviation per axis in
-    the unit of the error; ``numbers`` are standard normal. Source: Gelb 1974, section 3.8.
+    The error has the correlation e^(-t/time) with the correlation time ``time`` (s), and the standard deviation
+    ``sigma`` per axis in the unit of the error; ``numbers`` are standard normal. Source: Gelb 1974, section 3.8.
     """
     decay = exp(-elapsed / time)
     return decay * error + sigma * math.sqrt(1.0 - decay * decay) * numbers
@@ -44,7 +44,7 @@ def make_room(samples: Matrix, columns: int) -> None:
 
 
 def add_cross(a: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """Return a + rotation x f, summed in this order: the effect of a small rotation (rad) of the axes on f."""
+    """Return a + rotation x f, the effect of a small rotation (rad) of the axes on f, summed in this order."""
     return vector(
         a.x + rotation.y * f.z - rotation.z * f.y,
         a.y + rotation.z * f.x - rotation.x * f.z,

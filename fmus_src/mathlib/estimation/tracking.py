@@ -19,7 +19,7 @@ DISTURBANCE = 2
 def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
     """Return the covariance of value and rate after h (s) with white noise in the derivative of the rate.
 
-    r is its spectral density (value^2/s^3).
+    ``r`` is the spectral density of the noise (value^2/s^3).
     """
     f = matrix([1.0, h], [0.0, 1.0])
     q12 = r * h * h / 2.0
@@ -28,10 +28,10 @@ def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
 
 
 def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
-    """Return the covariance with a disturbance after h (s), also with white noise in the derivative of the
+    """Return the covariance, with a disturbance, after h (s) with white noise also in the derivative of the
     disturbance.
 
-    d is its spectral density (value^2/s^5).
+    ``d`` is the spectral density of this noise (value^2/s^5).
     """
     f = matrix([1.0, h, 0.5 * h * h], [0.0, 1.0, h], [0.0, 0.0, 1.0])
     q11 = r * h * h * h / 3.0 + d * h * h * h * h * h / 20.0
@@ -44,7 +44,9 @@ def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
 
 
 def measure_chain(p: Matrix, variance: float) -> tuple[Matrix, Matrix, float]:
-    """Return gain, covariance and variance of the innovation for a measurement of the value with a variance (> 0)."""
+    """Return the gain, the new covariance and the innovation variance for a measurement of the value with a variance
+    (> 0).
+    """
     h = zeros(1, len(p))
     h[0, TRACKED] = 1.0
     s = innovation_variance(p, h, variance)

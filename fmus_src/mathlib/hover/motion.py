@@ -1,8 +1,8 @@
 """Motion under the simplified hover-to-hover programme, by quadrature. Kernel functions.
 
-The controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g, with A the
-full or least thrust over the remaining mass. The plane of the transfer has x towards the target and y up; the motion
-starts at rest.
+The controls depend on time alone, so velocity and position are integrals: x'' = A cos th, y'' = A sin th - g, with A
+the full or least thrust over the remaining mass. The plane of the transfer has x towards the target and y up; the
+motion starts at rest.
 
 Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
 """
@@ -15,7 +15,7 @@ LONGEST = 30.0  # s; longest interval of eight nodes, for errors below 1e-9 of t
 
 
 class HoverVehicle(Record):
-    """Data of a lander for the planning of a programme."""
+    """Properties of a lander for the planning of a programme."""
 
     full = Field(unit="m/s2", frozen=True, description="largest thrust in the plan over the mass at its start")
     least = Field(unit="m/s2", frozen=True, description="least thrust in the plan over the mass at its start")
@@ -42,17 +42,17 @@ class ThrustSpan(Record):
 
 
 def without_motion() -> PlaneMotion:
-    """Return the motion at rest in the starting point, marked as nonexistent."""
+    """Return the motion at rest at the starting point, marked as nonexistent."""
     return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0, exists=False)
 
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
-    """Return the propellant used until t (s, up to the end of the shape s) divided by the initial mass."""
+    """Return the propellant used until t (s, at most the end of the shape s), divided by the initial mass."""
     return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
 
 
 def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
-    """Return the integral (m/s) of thrust over mass between two times (s) by the rocket equation; 0 if no mass is
+    """Return the integral (m/s) of thrust over mass between two times (s), by the rocket equation; 0 if no mass is
     left.
     """
     before = 1.0 - propellant(s, vehicle, begin)
@@ -63,7 +63,7 @@ def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: floa
 
 
 def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> PlaneMotion:
-    """Return the motion at the time ``until`` (s)."""
+    """Return the motion at time ``until`` (s)."""
     x = 0.0
     vx = 0.0
     y = 0.0
@@ -114,7 +114,7 @@ def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> PlaneMotion:
 
 
 def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> ThrustSpan:
-    """Return the span that starts at ``begin`` (s) and ends at the next switching or at ``until`` (s)."""
+    """Return the span that starts at ``begin`` (s) and ends at the next switching time or at ``until`` (s)."""
     end = until
     thrust = vehicle.least
     if full_thrust(s, begin):

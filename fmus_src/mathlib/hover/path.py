@@ -1,7 +1,8 @@
-"""Continuation from one simplified hover-to-hover programme to another with more distance or time. Kernel functions.
+"""Continuation from one simplified hover-to-hover programme to another with a larger distance or time. Kernel
+functions.
 
-Programmes, shapes and vehicles as in `shape` and `motion`; x and y (m) are the coordinates of the target in the plane
-of the transfer. The continuation was developed for this repository.
+Programmes, shapes and vehicles are defined in `shape` and `motion`; x and y (m) are the coordinates of the target in
+the plane of the transfer. The continuation was developed for this repository.
 """
 
 import math
@@ -53,8 +54,8 @@ def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSol
     """Return the vertical programme p tilted to end at a horizontal distance of about x (m), or p if that is
     impossible.
 
-    The thrust angle is about -u (1 - t/t7) + v t/t7, on which the end depends linearly; u and v follow from x and from
-    rest at the end.
+    The thrust angle is about -u (1 - t/t7) + v t/t7, and the end depends linearly on u and v, which are determined by x
+    and by rest at the end.
     """
     upright = HoverSolution(programme=p, is_feasible=False)
     turn = 2.0 * math.sqrt(TILT / vehicle.swing)
@@ -82,7 +83,7 @@ def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
 
 
 def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
-    """Return the programme with another end time (s) and its last burn moved accordingly."""
+    """Return the programme with another end time (s) and its last burn shifted accordingly."""
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
@@ -91,7 +92,7 @@ def solve_farther(
 ) -> tuple[HoverSolution, float]:
     """Return the programme with ``growth`` times the horizontal distance of p, and the distance (m) that it reaches.
 
-    p ends at ``distance`` (m), x (m) is the largest distance; ``kind`` is a PlanKind.
+    p ends at ``distance`` (m); the new distance is limited to x (m); ``kind`` is a PlanKind.
     """
     goal = growth * distance
     if goal > x:
@@ -100,7 +101,7 @@ def solve_farther(
 
 
 def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
-    """Continue the vertical programme p to the programme without first burn that reaches x, or comes as near as
+    """Continue the vertical programme p to a programme without first burn that reaches x or comes as near as
     possible.
     """
     place = x
@@ -125,12 +126,16 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
 
 
 def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return the programme with first burn that ends at the time ``end`` (s), starting from p with a similar end."""
+    """Return the programme with first burn that ends at time ``end`` (s), starting from p, which has a similar end
+    time.
+    """
     return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
 
 
 def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Continue p in steps to the programme with first burn that ends at ``end`` (s), or the last one reached."""
+    """Continue p in steps to the programme with first burn that ends at ``end`` (s), or to the last one that a step
+    reaches.
+    """
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
         left = end - p.t7
@@ -149,7 +154,8 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
 def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
     """Continue a programme without first burn to one with first burn that reaches x.
 
-    The steps are: back to where a first burn begins, then to longer durations, then to larger distances.
+    The continuation goes back to a distance at which a first burn begins, then to longer durations, then to larger
+    distances.
     """
     p = reached.programme
     end = p.t7

@@ -1,7 +1,7 @@
 """Search for the simplified hover-to-hover programme of least propellant. Kernel functions.
 
-Programmes, shapes and vehicles as in `shape` and `motion`; x >= 0 and y (m) are the coordinates of the target in the
-plane of the transfer. Source: Huang 2017; the search was developed for this repository.
+Programmes, shapes and vehicles are defined in `shape` and `motion`; x >= 0 and y (m) are the coordinates of the target
+in the plane of the transfer. Source: Huang 2017; the search was developed for this repository.
 """
 
 import math
@@ -28,7 +28,9 @@ class PlannedProgramme(Record):
 
 
 class Bracket(Record):
-    """Programme that uses less propellant than its neighbours with earlier and later end, if these are feasible."""
+    """Programme that uses less propellant than its neighbours with earlier and later end times, if they are
+    feasible.
+    """
 
     programme = Field(HoverProgramme, description="programme with the least propellant found")
     before = Field(
@@ -43,7 +45,7 @@ def nothing_planned() -> PlannedProgramme:
 
 
 def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """Return the programme to (x, y) with least propellant."""
+    """Return the programme of least propellant to (x, y) (m)."""
     if not possible(x, y, vehicle):
         return nothing_planned()
     down = vertical(y, vehicle)
@@ -67,7 +69,7 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
 
 
 def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return a programme with first burn close to p, which has none."""
+    """Return a programme with a first burn that is close to p, which has none."""
     later = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
     burning = solve(PlanKind.WITH_FIRST_BURN, later, vehicle, x, y)
     if not burning.is_feasible:
@@ -76,9 +78,10 @@ def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Lengthen the first burn of p, starting from none, as long as that reduces the propellant.
+    """Lengthen the first burn of p, starting from none, as long as this reduces the propellant.
 
-    The end time follows from the burn's width: it may become earlier, change fast with the width, and turn back.
+    The width of the burn determines the end time, which may become earlier, change fast with the width, and become
+    later again.
     """
     best = HoverSolution(programme=p, is_feasible=False)
     minimum = propellant_fraction(p, vehicle)
@@ -96,9 +99,9 @@ def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """Return the programme to (x, y) that ends at a prescribed time (s).
+    """Return the programme to (x, y) (m) that ends at a prescribed time (s).
 
-    It has a first burn unless the programme without first burn ends at just that time.
+    The programme has a first burn unless the programme without one ends at exactly this time.
     """
     best = programme(x, y, vehicle)
     p = best.programme
@@ -137,7 +140,7 @@ def propellant_of(solution: HoverSolution, vehicle: HoverVehicle) -> float:
 
 
 def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverProgramme:
-    """Return the programme with the end time of least propellant by golden section, starting from p with first burn."""
+    """Return the programme with the end time of least propellant, by golden section from p, which has a first burn."""
     later = descend(1.0, x, y, vehicle, p)
     p = later.programme
     low = later.before
@@ -169,7 +172,9 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Bracket:
-    """Shift the end time of p by ``way`` (s), then by growing steps, as long as that reduces the propellant."""
+    """Shift the end time of p by ``way`` (s), then by growing steps, as long as this reduces the propellant; return
+    a bracket.
+    """
     minimum = propellant_fraction(p, vehicle)
     before = p.t7
     beyond = p.t7 + way

@@ -53,7 +53,7 @@ class HoverShape(Record):
 
 
 class PlannedShape(Record):
-    """Shape of a programme, if it has one."""
+    """Shape of a programme, if one exists."""
 
     shape = Field(HoverShape, description="shape of the programme; all times 0 if the programme has none")
     exists = Field(bool, description="true: programme has a shape")
@@ -102,9 +102,9 @@ def without_shape() -> PlannedShape:
 def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
     """Return the shape of the programme p at an angular acceleration (rad/s2, > 0).
 
-    t3 and t4 bound the interval of constant rate that joins both turns, d after t2 and before t5: d^2 - (t5 - t2) d +
-    t1^2 + (t7 - t6)^2 = 0. No shape exists if this interval does not fit, if thrust would point down, or if the burns
-    overlap.
+    t3 and t4 bound the interval of constant rate between the two turns; it begins d after t2 and ends d before t5, with
+    d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. No shape exists if this interval does not fit, if thrust would point
+    down, or if the burns overlap.
     """
     first = 0.5 * p.t2
     last = 0.5 * (p.t7 - p.t5)
@@ -179,7 +179,7 @@ def full_thrust(s: HoverShape, t: float) -> bool:
 
 
 def burnt(s: HoverShape, t: float) -> float:
-    """Return the time at full thrust (s) between the start and t (s)."""
+    """Return the time (s) at full thrust between the start and t (s)."""
     time = 0.0
     if t > s.first_burn_begin:
         time = s.first_burn_end - s.first_burn_begin

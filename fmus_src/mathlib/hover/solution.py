@@ -1,6 +1,6 @@
-"""Solution of simplified programmes for an end position at rest by Newton's method. Kernel functions.
+"""Solution of simplified programmes for an end position, at rest, by Newton's method. Kernel functions.
 
-Programmes, shapes and vehicles as in `shape` and `motion`.
+Programmes, shapes and vehicles are defined in `shape` and `motion`.
 """
 
 import math
@@ -65,7 +65,7 @@ def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Re
 
 
 def count_free_times(kind: int) -> int:
-    """Return the number of times of a programme that Newton's method varies, equal to the number of conditions."""
+    """Return the number of times of a programme that Newton's method varies, which equals the number of conditions."""
     if kind == PlanKind.VERTICAL:
         return 2
     return 4
@@ -74,7 +74,7 @@ def count_free_times(kind: int) -> int:
 def change_of(kind: int, free: Vector4) -> HoverProgramme:
     """Return the change of a programme for a change ``free`` (s) of its free times.
 
-    The free times are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5
+    The free times are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. A vertical programme never turns: its t5
     equals t7.
     """
     if kind == PlanKind.VERTICAL:
@@ -87,7 +87,8 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 def invert_sensitivities(
     kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4
 ) -> tuple[Matrix, bool]:
-    """Return the derivatives of the free times with respect to the residual r at p, 4 x 4, and True if they exist.
+    """Return (derivatives of the free times with respect to the residual r at p, 4 x 4; True), or False if they do not
+    exist.
 
     They are computed from finite differences.
     """
@@ -120,10 +121,11 @@ def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
 
 
 def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> HoverSolution:
-    """Return the programme close to ``start`` that ends at (x, y) (m) at rest, or ``start`` if none is found.
+    """Return the programme close to ``start`` that ends at (x, y) (m) at rest, or ``start``, not feasible, if none is
+    found.
 
-    Steps are halved until the residual decreases; while it decreases to a tenth, the sensitivities are reused. Free are
-    t2, t5 (not VERTICAL), w (WITH_FIRST_BURN), tp and t7 (not WITH_FIRST_BURN).
+    Steps are halved until the residual decreases; while each step reduces it to less than a tenth, the sensitivities
+    are reused. The free times are tp; t2 and t5 except for VERTICAL; w for WITH_FIRST_BURN, otherwise t7.
     """
     p = start
     inverted = identity(4)

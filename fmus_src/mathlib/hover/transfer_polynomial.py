@@ -1,4 +1,4 @@
-"""Transfers to rest by polynomials of degree 7, and the thrust that they require. Kernel functions.
+"""Transfers to rest by polynomials of degree 7, and the thrust that the transfers require. Kernel functions.
 
 A transfer is the position as a polynomial in s = t/duration for t from 0 to duration. Its thrust over mass is the
 acceleration minus gravity: f = r'' + lift, with lift = -gravity (m/s2), constant over the transfer.
@@ -54,7 +54,7 @@ class TransferLimits(Record):
 
 
 class ThrustAlong(Record):
-    """Thrust over mass at a point of a transfer."""
+    """Thrust over mass at a point of a transfer, with its rate."""
 
     size = Field(unit="m/s2", description="thrust over mass")
     direction = Field(Vector3, unit="1", description="thrust direction, unit vector")
@@ -80,8 +80,8 @@ class Capture(Record):
 def transfer(
     position: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float
 ) -> Transfer:
-    """Return the transfer from these position (m), velocity, acceleration and jerk to rest at goal, with jerk 0 at the
-    end.
+    """Return the transfer from a position (m), velocity, acceleration and jerk to rest at ``goal``, with jerk 0 at
+    the end.
     """
     v = speed * duration
     a = 0.5 * acceleration * duration * duration
@@ -140,7 +140,7 @@ def transfer_snap(c: Transfer, t: float, duration: float) -> Vector3:
 def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> ThrustAlong:
     """Return the thrust over mass at time t (s).
 
-    Without thrust, the direction is that of lift and its rate 0.
+    Without thrust, the direction is the direction of lift, and its rate is 0.
     """
     f = transfer_acceleration(c, t, duration) + lift
     size = norm(f)
@@ -159,8 +159,8 @@ def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> Thrus
 
 
 def slow_duration(way: float, speed: float, acceleration: float) -> float:
-    """Return the duration (s) of a transfer from rest over a distance (m) within a speed and an acceleration, both >
-    0.
+    """Return the duration (s) of a transfer from rest over a distance (m) within limits of speed and acceleration,
+    both > 0.
     """
     time = SHORTEST
     if FASTEST * way / speed > time:

@@ -1,1 +1,1 @@
-"""Moon, landing sites and terminal guidance. Kernel functions."""
+"""Gravity of the Moon, landing sites and descent guidance. Kernel functions."""

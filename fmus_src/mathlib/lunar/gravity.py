@@ -22,7 +22,7 @@ def altitude_of(position: Vector3, radius: float) -> float:
 
 
 def vertical_at(position: Vector3, radius: float) -> Vector3:
-    """Return the upward unit vector at ``position`` (m); z at the Moon's centre."""
+    """Return the upward unit vector at ``position`` (m); the z axis if it is the Moon's centre."""
     centred = from_centre(position, radius)
     distance = norm(centred)
     if distance > 0.0:
@@ -38,9 +38,9 @@ def central_gravity(position: Vector3, radius: float, gravitational_parameter: f
 
 
 def gravity_difference(displacement: Vector3, up: Vector3, gradient: float) -> Vector3:
-    """Return the change of gravity (m/s2) over a small displacement (m): gradient (3 up up' - 1) displacement.
+    """Return the change of gravity (m/s2) over a small displacement (m), gradient (3 up up' - 1) displacement.
 
-    ``up`` is the unit vector away from the centre, ``gradient`` the gravitational parameter divided by the cube of the
-    distance from it (1/s2). Source: Battin 1999, section 8.1.
+    ``up`` is the unit vector away from the centre, and ``gradient`` (1/s2) is the gravitational parameter divided by
+    the cube of the distance from the centre. Source: Battin 1999, section 8.1.
     """
     return gradient * (3.0 * dot(up, displacement) * up - displacement)

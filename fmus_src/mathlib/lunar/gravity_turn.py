@@ -1,8 +1,8 @@
 """Gravity turn with a constant ratio of thrust acceleration to gravity, in closed form. Kernel functions.
 
-Thrust n g against the velocity v, at the angle psi from the downward vertical, with tau = tan(psi/2):
-v is proportional to tau^(n - 1) + tau^(n + 1), gravity constant.
-Source: Citron, Dunin and Meissinger 1964; Culler and Fried 1957.
+The thrust acceleration n g is opposite to the velocity v, which has the angle psi from the downward vertical. With tau
+= tan(psi/2) and constant gravity: v is proportional to tau^(n - 1) + tau^(n + 1), gravity constant. Source: Citron,
+Dunin and Meissinger 1964; Culler and Fried 1957.
 """
 
 import math
@@ -21,10 +21,10 @@ class GravityTurn(Record):
 
 
 def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:
-    """Return the turn from a ``speed`` (m/s) at a ``height`` (m) above its end.
+    """Return the gravity turn from a ``speed`` (m/s) at a ``height`` (m) above its end.
 
-    ``descent_cosine`` is that of the angle between velocity and downward vertical. No turn exists for a speed so small
-    that thrust balances gravity within rounding.
+    ``descent_cosine`` is the cosine of the angle between velocity and downward vertical. No turn exists if the speed is
+    so small that thrust balances gravity within rounding.
     """
     speed_square = speed * speed
     if not (height > 0.0 and descent_cosine > 0.0 and speed_square > 0.0 and g > 0.0):

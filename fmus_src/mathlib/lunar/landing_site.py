@@ -17,7 +17,7 @@ def above_site(site: Vector3, altitude: float, radius: float) -> Vector3:
 
 
 def site_below(position: Vector3, radius: float) -> Vector3:
-    """Return the point (m) on the sphere on the vertical of ``position``."""
+    """Return the point (m) of the sphere on the vertical of ``position`` (m)."""
     return above_site(position, 0.0, radius)
 
 
@@ -27,7 +27,9 @@ def redesignate(site: Vector3, move: Vector2, radius: float) -> Vector3:
 
 
 def within_reach(move: Vector2, reach: float) -> tuple[bool, Vector2]:
-    """Return True if a move is not longer than ``reach`` (m), and the move, shortened to it if it is longer."""
+    """Return (True, move) if the move is not longer than ``reach`` (m), otherwise (False, move shortened to
+    ``reach``).
+    """
     length = math.sqrt(move.x * move.x + move.y * move.y)
     if length <= reach:
         return True, move

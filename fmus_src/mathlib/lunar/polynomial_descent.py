@@ -4,9 +4,9 @@ With t the time to go, a_f the final thrust acceleration, gamma_2 = kr/(gamma + 
 
     a(t) = a_f + d1 t^gamma + d2 t^gamma_2,
 
-where d1 and d2 follow from position and velocity at the end. Apollo's P63 and P64 have gamma = 1, kr = 12 (Klumpp
-1974); E-guidance and ZEM/ZEV have gamma = 1, kr = 6 (Cherry 1964; Ebrahimi et al. 2008; Guo, Hawkins and Wie 2011) and
-do not depend on a_f.
+where position and velocity at the end determine d1 and d2. Apollo's P63 and P64 have gamma = 1, kr = 12 (Klumpp 1974);
+E-guidance and ZEM/ZEV have gamma = 1, kr = 6 (Cherry 1964; Ebrahimi et al. 2008; Guo, Hawkins and Wie 2011) and do not
+depend on a_f.
 
 Frame: landing site; dr = r_T - r and dv = v_T - v in constant gravity.
 
@@ -31,7 +31,9 @@ class DescentShape(Record):
 
 
 class DescentProfile(Record):
-    """Thrust acceleration over the fraction s of the time to go: final + first s^gamma + second s^gamma_2."""
+    """Thrust acceleration final + first s^gamma + second s^gamma_2, with s the fraction of the time to go that is
+    left.
+    """
 
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     first = Field(Vector3, unit="m/s2", description="coefficient of s^gamma")
@@ -113,7 +115,7 @@ def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time:
 def jerk_time(
     dr: Vector3, v: Vector3, dv: Vector3, constant: Vector3, forward: Vector3, jerk: float, time: float
 ) -> float:
-    """Return the time to go (s) of a quartic with this ``jerk`` (m/s3) at the target along ``forward``; 0 if none
+    """Return the time to go (s) of a quartic that has this ``jerk`` (m/s3) along ``forward`` at the target; 0 if none
     exists.
 
     ``constant`` is the sum of thrust acceleration and gravity (m/s2) at the target; ``time`` (s) is the initial value

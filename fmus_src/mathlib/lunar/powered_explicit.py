@@ -1,7 +1,8 @@
 """Powered explicit guidance with one phase of constant thrust for position and velocity targets. Kernel functions.
 
-The thrust direction is that of lambda + lambda' (t - K), with lambda perpendicular to lambda' and t from now; time to
-go and thrust are unknowns, too. With tau = v_e m/F the integrals of the thrust acceleration and its moments are
+The thrust is parallel to lambda + lambda' (t - K), with lambda perpendicular to lambda' and t measured from the
+present; the time to go T and the thrust F are unknowns as well. With tau = v_e m/F the integrals of the thrust
+acceleration and its moments are
 
     L = v_e ln(tau/(tau - T)),  J = tau L - v_e T,  S = L T - J,  Q = S tau - v_e T^2/2,  P = Q tau - v_e T^3/6,
     H = J T - Q,  K = J/L.
@@ -54,7 +55,7 @@ class SteeringProblem(Record):
 
 
 class ThrustIntegrals(Record):
-    """Integrals and moments of the acceleration under constant thrust."""
+    """Integrals and moments of the thrust acceleration under constant thrust."""
 
     S = Field(
         unit="m", description="integral of the thrust acceleration over the remaining time, weighted by the time left"
@@ -67,7 +68,7 @@ class ThrustIntegrals(Record):
 
 
 def thrust_integrals(impulse: float, tau: float, time: float, exhaust: float) -> ThrustIntegrals:
-    """Return the integrals of an ``impulse`` L (m/s) over ``time`` (s)."""
+    """Return the integrals for an ``impulse`` L (m/s) over ``time`` (s)."""
     first = tau * impulse - exhaust * time
     second = impulse * time - first
     third = second * tau - 0.5 * exhaust * time * time
@@ -118,7 +119,7 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
 
 
 def missing(s: SteeringState) -> SteeringState:
-    """Return a state marked as without solution."""
+    """Return the state marked as having no solution."""
     return replace(s, change=-1.0)
 
 

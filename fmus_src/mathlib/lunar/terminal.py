@@ -32,8 +32,8 @@ def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go:
 def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Return the time to go (s) from |A| T = 2 |B| without its cubic term, on the published branch; 0 if none exists.
 
-    The branch is that of fast approaches, a2 < 0; for slow or hovering starts above the target (a2 > 0) it gives a
-    negative time. A negative discriminant, which occurs in the last steps, is taken as 0.
+    The published branch applies to fast approaches, a2 < 0; for slow or hovering starts above the target (a2 > 0) it
+    gives a negative time. A negative discriminant, which occurs in the last steps, is replaced by 0.
     """
     speed = norm(v)
     gain = norm(dv)
@@ -52,10 +52,11 @@ def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Return the time to go (s) from the complete |A| T = 2 |B|, on the published branch; 0 if none exists.
 
-    |A| T - 2 |B| is negative at T = 0. At its first root, where it rises through 0, the thrust reverses on the way: A T
-    = -2 B on a line, 5 W one way to 7 W the other. The published branch is the second root, where it falls through 0,
-    with A T = 2 B on a line. It does not exist at rest, receding or slow above the target, nor always when navigation
-    errors are as large as the remaining distance.
+    |A| T - 2 |B| is negative at T = 0. At its first root, where it rises through 0, the thrust reverses during the
+    flight; in motion along a line A T = -2 B, and the thrust changes from 5 W in one direction to 7 W in the other. The
+    published branch is the second root, where the function falls through 0; along a line A T = 2 B. This root does not
+    exist for starts at rest, moving away from the target or slow above it, and it may not exist when navigation errors
+    are as large as the remaining distance.
     """
     c = [0.0] * 5
     c[0] = -4.0 * dot(dr, dr)
@@ -82,13 +83,13 @@ def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
-    """Return True if a thrust that satisfies |A| T = 2 |B| with ``time`` (s) does not reverse: A.B > 0."""
+    """Return True if a thrust that satisfies |A| T = 2 |B| with ``time`` (s) does not reverse, i.e. A.B > 0."""
     a, b = impulse_and_miss(dr, v, dv, g, time)
     return dot(a, b) > 0.0
 
 
 def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float, c: list) -> None:
-    """Set c to the polynomial T^4 dJ/dT in T, with J the time integral of |a0 + a1 t|^2 plus twice ``weight`` (m2/s4).
+    """Set c to the polynomial T^4 dJ/dT in T; J is the time integral of |a0 + a1 t|^2 plus twice ``weight`` (m2/s4).
 
     Without weight J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
     """
@@ -110,7 +111,7 @@ def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) ->
 def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Return the time to go (s) with the least integral of |a0 + a1 t|^2 (the first minimum); 0 if none exists.
 
-    It exists for g > 0 and dr other than 0: for a hover at a distance h above, below or at the side of the target it is
+    The time exists for g > 0 and dr other than 0; for a hover at a distance h above, below or beside the target it is
     sqrt(6 h/g). Source: D'Souza 1997, with a velocity at the target.
     """
     return weighted_effort_time(dr, v, dv, g, 0.0)
@@ -138,10 +139,10 @@ def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight:
 
 
 def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
-    """Return the thrust a0 + a1 t over ``span`` (s).
+    """Return the mean of the thrust a0 + a1 t over ``span`` (s), with the initial direction and its rate.
 
-    The size is that of the mean vector. For a0 = 0 the direction is that of the mean and its rate is 0; without thrust,
-    direction and rate are the arguments.
+    The magnitude is the magnitude of the mean vector. For a0 = 0 the direction is the direction of the mean and its
+    rate is 0; without thrust, the arguments ``direction`` and ``rate`` are returned.
     """
     p = 3.0 * b - time * a
     q = time * a - 2.0 * b

@@ -1,9 +1,9 @@
 """Attitude relative to the orbital frame, on a circular orbit. Kernel functions.
 
 Orbital frame: y radially up, x along the velocity, z = x x y; its angular velocity is (0, 0, -w0). Angles are (roll,
-yaw, pitch), in the order of the axes they turn about; the rotations are yaw, pitch, roll in this order. Angular
-velocities are relative to the inertial frame, in body axes. Pitch is within 90 deg. Equations:
-docs/systems/orbital_attitude.md.
+yaw, pitch), in the order of the axes x, y, z about which they turn; the rotations are performed in the order yaw,
+pitch, roll. Angular velocities are relative to the inertial frame, in body axes. Pitch is between -90 and 90 deg.
+Equations: docs/systems/orbital_attitude.md.
 
 Source: Lapin, thesis, chapter 1.1.
 """
@@ -50,7 +50,7 @@ class AngleFunctions(Record):
 
 
 def evaluate_angles(angles: Vector3) -> AngleFunctions:
-    """Return sines, cosines and tangents of the angles (rad), which the functions below share."""
+    """Return the sines, cosines and tangents of the angles (rad), which the functions below share."""
     return AngleFunctions(
         sin_roll=sin(angles.x),
         cos_roll=cos(angles.x),
@@ -63,7 +63,7 @@ def evaluate_angles(angles: Vector3) -> AngleFunctions:
 
 
 def radial_direction(a: AngleFunctions) -> Vector3:
-    """Return the orbital frame's y axis, radially up, in body axes."""
+    """Return the y axis of the orbital frame, radially up, in body axes."""
     return vector(a.sin_pitch, a.cos_roll * a.cos_pitch, -a.sin_roll * a.cos_pitch)
 
 
@@ -81,7 +81,7 @@ def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
 
 
 def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Matrix, Matrix]:
-    """Return the derivatives of angle_rates with respect to the angles and to w, 3 x 3 each."""
+    """Return the derivatives of angle_rates with respect to the angles and to w, each 3 x 3."""
     q = w.y * a.cos_roll - w.z * a.sin_roll
     r = w.y * a.sin_roll + w.z * a.cos_roll
     square = a.cos_pitch * a.cos_pitch
@@ -104,7 +104,8 @@ def angular_acceleration(
     """Return the angular acceleration w' (rad/s2, body) of a rigid body under gravity gradient and a torque (N m,
     body).
 
-    J w' = 3 w0^2 j x (J j) + (J w) x w + torque, with j radially up, the inertia J (kg m2) and its inverse.
+    J w' = 3 w0^2 j x (J j) + (J w) x w + torque, with j radially up and the inertia J (kg m2), which is passed with its
+    inverse.
     """
     j = radial_direction(a)
     return inverse_inertia @ (3.0 * w0 * w0 * cross(j, inertia @ j) + cross(inertia @ w, w) + torque)
@@ -116,7 +117,7 @@ def gyric_matrix(inertia: Matrix, inverse_inertia: Matrix, v: Vector3) -> Matrix
 
 
 def linear_model(inertia: Matrix, inverse_inertia: Matrix, w0: float) -> Matrix:
-    """Return the 6 x 6 matrix of the linearised motion of (angles, w - wp) about angles 0, wp = (0, 0, -w0)."""
+    """Return the 6 x 6 matrix of the linearised motion of (angles, w - wp) about angles of 0 and wp = (0, 0, -w0)."""
     by_radial = gyric_matrix(inertia, inverse_inertia, vector(0.0, 1.0, 0.0))
     a = zeros(6, 6)
     a[ROLL, YAW] = -w0

@@ -20,7 +20,7 @@ def central_angle(position: Vector3, radius: float) -> float:
 
 
 def ground_range(position: Vector3, radius: float) -> float:
-    """Return the arc (m) on the sphere of ``radius`` between the point below ``position`` and the origin."""
+    """Return the arc length (m) on the sphere of ``radius`` (m) between the point below ``position`` and the origin."""
     centred = from_centre(position, radius)
     return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 
@@ -40,9 +40,10 @@ def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> T
 
 
 def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
-    """Return the speed (m/s) at the apocentre of an ellipse with these distances (m) of apocentre and pericentre.
+    """Return the speed (m/s) at the apocentre of an ellipse with these distances (m) of apocentre and pericentre from
+    the centre.
 
-    Source: vis-viva, such as Battin 1999, section 3.4.
+    Source: vis-viva equation, for example Battin 1999, section 3.4.
     """
     return math.sqrt(2.0 * mu * pericentre / (apocentre * (apocentre + pericentre)))
 
@@ -50,10 +51,11 @@ def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
 def deorbit_burn(
     position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
 ) -> float:
-    """Return the burn time (s) with ``acceleration`` (m/s2) until ``position`` is the apocentre of the target ellipse.
+    """Return the time (s) of a burn with ``acceleration`` (m/s2) after which ``position`` is the apocentre of the
+    target ellipse.
 
-    ``pericentre`` is its distance (m) from the centre. The time is negative if the horizontal speed is already too
-    small; the vertical speed is ignored. ``position`` must not be the centre.
+    ``pericentre`` is the distance (m) of the ellipse's pericentre from the centre. The time is negative if the
+    horizontal speed is already too small; the vertical speed is ignored. ``position`` must not be the centre.
     """
     up = vertical_at(position, radius)
     sinking = dot(velocity, up)
@@ -63,12 +65,12 @@ def deorbit_burn(
 
 
 def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: float, mu: float) -> float:
-    """Return the least altitude (m) of free flight over the next ``angle`` (rad) about the Moon's centre.
+    """Return the least altitude (m) in free flight over the next ``angle`` (rad) about the Moon's centre.
 
     With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where A =
-    mu/h^2, B = 1/r(0) - A, C = w/h. It is least at the pericentre if that lies ahead, else at one of both ends. Without
-    horizontal velocity the fall leads to the centre. ``position`` must not be the centre. Source: the conic in polar
-    coordinates, such as Battin 1999, section 3.3.
+    mu/h^2, B = 1/r(0) - A, C = w/h. The distance is least at the pericentre if it lies within the angle, otherwise at
+    one of the two ends. Without horizontal velocity the vehicle falls to the centre. ``position`` must not be the
+    centre. Source: conic section in polar coordinates, for example Battin 1999, section 3.3.
     """
     centred = from_centre(position, radius)
     distance = norm(centred)

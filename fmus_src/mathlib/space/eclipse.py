@@ -8,12 +8,12 @@ from .ephemerides import SUN_RADIUS
 
 
 def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
-    """Return the visible fraction of the Sun's disk, 0 to 1, at a position (m) in the shadow of a sphere (radius in
-    m).
+    """Return the visible fraction of the Sun's disk, 0 to 1, at a position (m) near a sphere that casts a shadow
+    (radius in m).
 
-    Both positions are relative to the sphere's centre, in the same frame. Refraction and limb darkening are neglected.
-    At or below the surface of the sphere there is full light if the Sun is above the horizon. Source: Montenbruck and
-    Gill 2000, section 3.4.2.
+    The positions of the point and of the Sun are relative to the sphere's centre, in the same frame. Refraction and
+    limb darkening are neglected. At or below the surface of the sphere there is full light if the Sun is above the
+    horizon. Source: Montenbruck and Gill 2000, section 3.4.2.
     """
     away = sun - position
     a = disk_angle(SUN_RADIUS, norm(away))
@@ -35,7 +35,9 @@ def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
 
 
 def disk_angle(radius: float, distance: float) -> float:
-    """Return the apparent angular radius (rad) of a sphere at a distance (m) from its centre; 90 deg inside it."""
+    """Return the apparent angular radius (rad) of a sphere at a distance (m) from its centre; pi/2 inside the
+    sphere.
+    """
     if radius >= distance:
         return 0.5 * math.pi
     return asin(radius / distance)

@@ -39,7 +39,7 @@ def sun_position(t: float) -> Vector3:
     """Return the position of the Sun (m, GCRS axes) at t (s).
 
     Source: Meeus 1998, chapter 25 (anomaly, equation of the centre, eccentricity); Simon et al. 1994 (perihelion in the
-    fixed ecliptic); the largest term of the Earth's motion about its barycentre with the Moon.
+    fixed ecliptic). The largest term of the Earth's motion about the Earth-Moon barycentre is included.
     """
     T = t / CENTURY  # noqa: N806 - as in the source
     m = (357.52911 + 35999.05029 * T) * DEGREE

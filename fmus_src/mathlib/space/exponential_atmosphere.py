@@ -1,4 +1,4 @@
-"""Density of the upper atmosphere as a function of height, exponential between the rows of a table. Kernel functions.
+"""Density of the upper atmosphere, exponential in height between the rows of a table. Kernel functions.
 
 Source: Vallado 2013, table 8-4.
 """

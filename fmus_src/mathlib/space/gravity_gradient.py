@@ -1,4 +1,4 @@
-"""Torque of a central gravity field on an extended body. Kernel functions."""
+"""Torque of a central gravity field on a rigid body. Kernel functions."""
 
 from ...kernel.matrices import Matrix
 from ..vectors import Vector3, cross, dot, norm

@@ -1,12 +1,14 @@
 """Gradient of a spherical-harmonic potential, for gravity and the magnetic field of a planet. Kernel functions.
 
 U = (mu/r) sum (R/r)^n P_nm(sin phi) (C_nm cos m lambda + S_nm sin m lambda), over degrees n and orders m, with latitude
-phi, longitude lambda and unnormalised coefficients. One matrix contains both: C_nm is [n, m], S_nm is [m - 1, n].
+phi, longitude lambda and unnormalised coefficients. One matrix contains both kinds of coefficients: C_nm is element [n,
+m], S_nm is element [m - 1, n].
 
 Frame: planet-fixed, origin at the planet's centre.
 
 The solid harmonics V_nm and W_nm are computed by recursion along an order and not stored; there is no singularity at
-the poles. Their contributions to the gradient are summed immediately, the central term, the largest, last.
+the poles. Their contributions to the gradient are summed immediately; the central term, which is the largest, comes
+last.
 
 Source: Cunningham 1970; Montenbruck and Gill 2000, section 3.2.4.
 """
@@ -39,14 +41,16 @@ def full_normalisation(n: int, m: int) -> float:
 
 
 def set_pair(cs: Matrix, n: int, m: int, c: float, s: float) -> None:
-    """Set both coefficients of degree n and order m; s is ignored for m = 0."""
+    """Set both coefficients of degree n and order m; ``s`` is ignored for m = 0."""
     cs[n, m] = c
     if m > 0:
         cs[m - 1, n] = s
 
 
 def gravity_coefficients(normalised: list, degree: int) -> Matrix:
-    """Return coefficients for `gradient` from fully normalised ones: C, S of orders 0 to n, for degrees n from 2."""
+    """Return the matrix of coefficients for `gradient` from fully normalised ones: C, S of orders 0 to n, for each
+    degree n from 2 on.
+    """
     cs = zeros(SIZE, SIZE)
     cs[0, 0] = 1.0
     k = 0

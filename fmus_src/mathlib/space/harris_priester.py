@@ -1,7 +1,8 @@
 """Density of the upper atmosphere with a diurnal bulge behind the Sun: Harris and Priester. Kernel functions.
 
-The model applies to mean solar activity: at 500 km the ratio of its mean to that of NRLMSIS 2.0 is 0.96 at F10.7 = 150,
-10.1 at 70 and 0.28 at 230. A factor from 0.1 to 4 covers the variation over a solar cycle.
+The model applies to mean solar activity: at 500 km the ratio of its mean density to the mean density of NRLMSIS 2.0 is
+0.96 for F10.7 = 150, 10.1 for F10.7 = 70 and 0.28 for F10.7 = 230. Density factors from 0.1 to 4 cover the variation
+over a solar cycle.
 
 Source: Montenbruck and Gill 2000, section 3.5.2 and table 3.8.
 """
@@ -36,7 +37,8 @@ HIGHEST = (  # 1e-12 kg/m3, of the bulge
 
 
 def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
-    """Return the fraction of the bulge at a position, from 0 opposite to its apex to 1 at it: cos^n of half the angle.
+    """Return the fraction of the bulge at a position, cos^n of half the angle from its apex: 1 at the apex, 0 opposite
+    to it.
 
     ``sun`` is the unit vector to the Sun; both vectors are inertial and relative to the Earth's centre. The exponent n
     is 2 for orbits of low inclination and 6 for polar orbits.
@@ -49,7 +51,7 @@ def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
 
 
 def harris_priester_density(h: float, bulge: float) -> float:
-    """Return the density (kg/m3) at a height h (m) with a fraction of the bulge; 0 above 1000 km."""
+    """Return the density (kg/m3) at a height h (m) for a fraction of the bulge; 0 above 1000 km."""
     kilometres = 1e-3 * h
     if kilometres < HEIGHT[0]:
         kilometres = HEIGHT[0]

@@ -1,8 +1,8 @@
 """Magnetic field of the Earth to degree 13: IGRF-14 from 2025 to 2030. Kernel functions.
 
-Source: Alken et al., International Geomagnetic Reference Field: the fourteenth generation, 2025: main field at 2025.0
-and secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the coefficients are extrapolated
-linearly, with unknown accuracy.
+Source: Alken et al., International Geomagnetic Reference Field: the fourteenth generation, 2025; main field at 2025.0
+and its secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the coefficients are
+extrapolated linearly, with unknown accuracy.
 """
 
 from ...kernel.matrices import Matrix, zeros

@@ -1,7 +1,7 @@
 """Gravity field of the Moon to degree 8: LP165P. Kernel functions.
 
-The degree suffices for attitude and short arcs; the mass concentrations that dominate a low lunar orbit need a much
-higher one.
+This degree suffices for attitude and short arcs; the mass concentrations that dominate a low lunar orbit need a much
+higher degree.
 
 Source: Konopliv et al. 2001, fully normalised coefficients in principal axes, which are within about 0.03 deg of the
 mean-Earth axes of `orientation`.

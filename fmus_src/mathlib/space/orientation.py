@@ -1,8 +1,7 @@
 """Orientation of Earth and Moon: from inertial to planet-fixed axes. Kernel functions.
 
-Inertial: axes of the GCRS. Planet-fixed: the ITRS without polar motion, or the Moon's mean-Earth axes. Both
-orientations are a rotation about a slowly moving pole: axes of the pole, which may be held over a step, and a rotation
-angle.
+Inertial: axes of the GCRS. Planet-fixed: the ITRS without polar motion, or the Moon's mean-Earth axes. Each orientation
+consists of pole axes, which move slowly and may be kept constant over a step, and a rotation angle about the pole.
 """
 
 import math
@@ -16,7 +15,7 @@ DAY = 86400.0  # s
 
 
 class PlanetAxes(Record):
-    """Axes of the pole at one instant, and the rotation angle about it, with a constant rate near that instant."""
+    """Axes of the pole at one instant, and the rotation angle about it, which has a constant rate near that instant."""
 
     first = Field(
         Vector3, unit="1", frame="inertial", description="axis from which the rotation angle counts, unit vector"
@@ -34,7 +33,7 @@ class PlanetAxes(Record):
 
 
 class FixedAxes(Record):
-    """Planet-fixed axes at one instant: prime meridian in the equatorial plane, 90 degrees east, north."""
+    """Planet-fixed axes at one instant: prime meridian on the equator, 90 degrees east of it, north."""
 
     meridian = Field(
         Vector3, unit="1", frame="inertial", description="planet-fixed x axis, through the prime meridian, unit vector"
@@ -44,12 +43,12 @@ class FixedAxes(Record):
 
 
 def angle_at(axes: PlanetAxes, t: float) -> float:
-    """Return the angle (rad) of the prime meridian at a time (s) close to that of the axes."""
+    """Return the angle (rad) of the prime meridian at a time (s) close to the instant of the axes."""
     return axes.angle + axes.rate * (t - axes.time)
 
 
 def fixed_axes(axes: PlanetAxes, t: float) -> FixedAxes:
-    """Return the planet-fixed axes at a time (s) close to that of the axes."""
+    """Return the planet-fixed axes at a time (s) close to the instant of the pole axes."""
     angle = angle_at(axes, t)
     c = cos(angle)
     s = sin(angle)
@@ -114,7 +113,7 @@ LUNAR_RATE = 13.17635815  # deg a day
 def moon_axes(t: float) -> PlanetAxes:
     """Return the axes of the Moon at t (TT, s since J2000.0).
 
-    The rate of the angle is its mean rate; librations are constant at their values at t. Source: Archinal et al.,
+    The rotation angle has its mean rate; the librations are constant at their values at t. Source: Archinal et al.,
     Report of the IAU working group on cartographic coordinates: 2009, 2011.
     """
     d = t / DAY

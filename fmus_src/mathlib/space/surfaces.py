@@ -1,9 +1,9 @@
-"""Air drag and solar pressure on flat plates and on a sphere. Kernel functions.
+"""Air drag and solar radiation pressure on flat plates and on a sphere. Kernel functions.
 
 Frame: body, origin at the undeformed centre of mass. Plates do not shade each other.
 
-Plates are rows of a matrix: area (m2; 0: none), unit outward normal, centre (m), drag coefficient, specular and diffuse
-reflectivity.
+Each plate is a row of a matrix: area (m2; 0: no plate), unit outward normal (three elements), centre (m, three
+elements), drag coefficient, specular and diffuse reflectivity.
 
 Source: Montenbruck and Gill 2000, sections 3.4 and 3.5.
 """
@@ -20,14 +20,16 @@ SOLAR_PRESSURE = 1361.0 / 299792458.0  # N/m2 at one astronomical unit: Kopp and
 
 
 class SurfaceLoad(Record):
-    """Force on all surfaces and its torque about the origin."""
+    """Force on all surfaces, and its torque about the origin."""
 
     force = Field(Vector3, unit="N", frame="body", description="force on all surfaces")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque about the origin of the body frame")
 
 
 def pressure_at(distance: float, illumination: float) -> float:
-    """Return the solar pressure (N/m2) at a distance (m) from the Sun, with the visible fraction of its disk."""
+    """Return the solar radiation pressure (N/m2) at a distance (m) from the Sun, with the visible fraction of the
+    Sun's disk.
+    """
     ratio = ASTRONOMICAL_UNIT / distance
     return SOLAR_PRESSURE * ratio * ratio * illumination
 
@@ -62,7 +64,9 @@ def plate_pressure(plates: Matrix, pressure: float, sun: Vector3) -> SurfaceLoad
 
 
 def sphere_drag(area: float, coefficient: float, density: float, velocity: Vector3) -> Vector3:
-    """Return the drag force (N) on a sphere of a cross-section (m2) at a velocity (m/s) relative to the air (kg/m3)."""
+    """Return the drag force (N) on a sphere of a cross-section (m2) at a velocity (m/s) relative to air of a density
+    (kg/m3).
+    """
     return -(0.5 * density * coefficient * area * norm(velocity)) * velocity
 
 

@@ -1,1 +1,1 @@
-"""Powered descent of least propellant as a second-order cone problem, solved on board by an interior-point method."""
+"""Powered descent of least propellant as a second-order cone programme, solved on board by an interior-point method."""

@@ -1,8 +1,8 @@
 """Second-order cones under the scaling of Nesterov and Todd. Kernel functions.
 
-A cone consists of a few rows x with x_0 >= |(x_1, ..)|; a nonnegative number is a cone of one row. With J = diag(1, -1,
-..), s of the slack and zeta of the multiplier, each divided by the root of its x'Jx, w = (s + J zeta)/2g, g^2 = (1 +
-s'zeta)/2, and a = (w + e)/sqrt(2 (w_0 + 1)) the scaling is
+A cone consists of a few rows x with x_0 >= |(x_1, ..)|; a nonnegative number is a cone of one row. Let J = diag(1, -1,
+..), e = (1, 0, ..), and s and zeta the slack and the multiplier, each divided by the root of its x'Jx. With w = (s + J
+zeta)/(2 g), g^2 = (1 + s'zeta)/2 and a = (w + e)/sqrt(2 (w_0 + 1)) the scaling is
 
     W = b (2 a a' - J),  W^-1 = (2 J a a' J - J)/b,  W^-2 = (2 J w w' J - J)/b^2,  lambda = W zeta = W^-1 s.
 
@@ -32,7 +32,7 @@ FIELDS = 13 * ROWS + 4  # with the rows of the largest cone after the last, to p
 
 
 def lorentz(c: list, at: int, size: int) -> float:
-    """Return x'Jx of the rows starting at ``at``; 0 or less if they are not an interior point of the cone."""
+    """Return x'Jx of the rows starting at ``at``; 0 or less if the rows are not an interior point of the cone."""
     square = 0.0
     for i in range(1, size):
         square = square + c[at + i] * c[at + i]
@@ -121,7 +121,7 @@ def weight_at(c: list, row: int, i: int, j: int) -> float:
 
 
 def multiply_scaled(c: list, row: int, size: int, centring: float) -> None:
-    """Set the correction of a cone: ``centring`` e minus the product of the scaled steps."""
+    """Set the correction of a cone to ``centring`` e minus the product of the scaled steps."""
     slack = SCALED_SLACK + row
     multiplier = SCALED_MULTIPLIER + row
     c[CORRECTION + row] = centring - product(c, slack, multiplier, size)
@@ -143,8 +143,8 @@ def divide_by_lambda(c: list, row: int, size: int) -> None:
 
 
 def inverse_step(c: list, row: int, size: int, field: int) -> float:
-    """Return the inverse of the step along the scaled ``field`` at which lambda leaves the cone; 0 or less if it never
-    does.
+    """Return the inverse of the step along the scaled ``field`` at which lambda leaves the cone; 0 or less if it stays
+    inside.
 
     Source: Vandenberghe 2010, section 8.3.
     """

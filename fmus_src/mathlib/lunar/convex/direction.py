@@ -84,7 +84,7 @@ def set_direction(
 
 
 def largest_step(p: DescentProblem, c: list) -> float:
-    """Return the largest step that keeps slacks and multipliers in their cones; infinite without a bound."""
+    """Return the largest step for which slacks and multipliers remain in their cones; infinite if every step does."""
     inverse = 0.0
     for j in range(CONES):
         row = cone_row(j) % ROWS
@@ -102,7 +102,7 @@ def largest_step(p: DescentProblem, c: list) -> float:
 
 
 def set_correction(p: DescentProblem, c: list, centring: float, second_order: bool) -> None:
-    """Set the right-hand sides of complementarity: none for the predictor, Mehrotra's with ``second_order``."""
+    """Set the right-hand sides of complementarity: 0 for the predictor, Mehrotra's correction with ``second_order``."""
     for j in range(CONES):
         row = cone_row(j) % ROWS
         size = cone_size(p, j) % LARGER
@@ -115,7 +115,7 @@ def set_correction(p: DescentProblem, c: list, centring: float, second_order: bo
 
 
 def scale_cones(p: DescentProblem, c: list) -> bool:
-    """Set the scaling of all cones; return False if one of them is not at an interior point."""
+    """Set the scaling of all cones; return False if a slack or multiplier is not an interior point."""
     for j in range(CONES):
         row = cone_row(j) % ROWS
         size = cone_size(p, j) % LARGER

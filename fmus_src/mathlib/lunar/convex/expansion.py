@@ -1,4 +1,4 @@
-"""Descent in SI units as a convex problem expanded about a plan, with its solution as the next plan. Kernel functions.
+"""Descent in SI units as a convex problem expanded about a plan; the solution is the next plan. Kernel functions.
 
 A plan is a flat list: thrust acceleration (m/s2) of the intervals; position (m), velocity (m/s), gravity (m/s2) and
 logarithm of the mass over the initial mass at the nodes, in the landing-site frame.
@@ -57,7 +57,7 @@ class DescentTask(Record):
 
 
 class PlanSummary(Record):
-    """Duration, propellant and misses of a solved plan."""
+    """Duration, propellant and misses of a plan."""
 
     time = Field(unit="s", description="time of flight")
     solved = Field(bool, description="true: iterations converged; false: plan unchanged")
@@ -130,7 +130,7 @@ def expand(task: DescentTask, time: float, plan: list, expansion: list) -> Desce
 
 
 def take_point(task: DescentTask, p: DescentProblem, expansion: list, point: list, time: float, plan: list) -> None:
-    """Set a plan for a ``time`` (s) from a solution's point."""
+    """Set a plan for a ``time`` (s) from the point of a solution."""
     h = time / float(INTERVALS)
     r = task.position
     v = task.velocity
@@ -154,7 +154,7 @@ def improve_plan(task: DescentTask, time: float, plan: list) -> PlanSummary:
 
 
 def improve_plan_to(task: DescentTask, time: float, tolerance: float, plan: list) -> PlanSummary:
-    """Improve a plan like `improve_plan` with another ``tolerance`` of gap and residuals."""
+    """Improve a plan as `improve_plan` does, to another ``tolerance`` of gap and residuals."""
     expansion = [0.0] * EXPANSION
     point = [0.0] * POINT
     p = expand(task, time, plan, expansion)

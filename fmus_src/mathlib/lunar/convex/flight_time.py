@@ -1,8 +1,8 @@
 """Time of flight of least propellant, by bisection on plans. Kernel functions.
 
 As a function of time, the propellant falls steeply where the thrust does not suffice, then rises slowly. The result is
-the shortest time for which a plan is solved, reaches its target and needs more propellant for more time. Plans are
-expanded about the last solved plan.
+the shortest time for which a plan is solved, reaches its target and would need more propellant for a longer time. Plans
+are expanded about the last solved plan.
 """
 
 from ....kernel.records import Field, Record, replace
@@ -37,12 +37,12 @@ def is_met(s: PlanSummary) -> bool:
 
 
 def is_long_enough(s: PlanSummary) -> bool:
-    """Return True if a plan ends at its target and would need more propellant for more time."""
+    """Return True if a plan ends at its target and would need more propellant for a longer time."""
     return is_met(s) and s.slope > 0.0
 
 
 def first_bracket(time: float, lowest: float) -> TimeBracket:
-    """Return the bracket of a first plan, from an estimate ``time`` (s) and the ``lowest`` fraction of it."""
+    """Return the bracket of a first plan, from an estimated ``time`` (s) and the fraction ``lowest`` of it."""
     return TimeBracket(time=time, low=lowest * time, high=FIRST_HIGH * time, growths=GROWTHS, bisections=BISECTIONS)
 
 
@@ -56,7 +56,7 @@ def replan_bracket(time: float) -> TimeBracket:
 def plan_descent(task: DescentTask, bracket: TimeBracket, plan: list) -> PlanSummary:
     """Set a plan for the best time in a bracket, whose upper bound may grow; return its summary with all iterations.
 
-    If no time is long enough, the summary is that of the last plan: not solved, or solved with its least miss.
+    If no time is long enough, the summary describes the last plan, which is not solved or has the least miss.
     """
     low = bracket.low
     high = bracket.high

@@ -1,6 +1,7 @@
 """Primal-dual interior-point method for a descent problem. Kernel functions.
 
-Every point satisfies the dynamics, slacks and multipliers are inside their cones, and steps are 0.99 of the largest.
+Every point satisfies the dynamics, slacks and multipliers are inside their cones, and steps are 0.99 of the largest
+possible step.
 
 Source: Mehrotra 1992; Vandenberghe 2010, section 7.
 """
@@ -64,7 +65,7 @@ class ConeSolution(Record):
 
 
 def begin(p: DescentProblem, expansion: list, point: list, c: list) -> None:
-    """Set the first point with thrust of no direction, and slacks and multipliers inside their cones."""
+    """Set the first point, with thrust u = 0 and bounds s > 0, and slacks and multipliers inside their cones."""
     for i in range(POINT):
         point[i] = 0.0
     for i in range(3):
@@ -106,7 +107,7 @@ def raise_to(c: list, at: int, lowest: float) -> None:
 
 
 def sum_impulse(p: DescentProblem, point: list) -> float:
-    """Return the sum of h s."""
+    """Return the sum of h s over the intervals."""
     total = 0.0
     for k in range(INTERVALS):
         total = total + p.step * point[CONTROL * k]

@@ -15,8 +15,9 @@ problem feasible for every time and are 0 if the target can be reached (exact pe
     glide (3 rows)    r_z + depth, tan(glide slope) (r_x, r_y)
     ends (4 rows)     bound, r_N;  bound, v_N - v_T
 
-The limits are thrust over mass of the expansion in the middle of an interval. Lengths are scaled by the distance from
-the target, accelerations by the largest thrust over mass, times by the square root of their quotient.
+The limits are the least and largest thrust, divided by the mass that the expansion has in the middle of an interval.
+Lengths are scaled by the distance from the target, accelerations by the largest thrust over mass, times by the square
+root of their quotient.
 
 Source: Acikmese and Ploen 2007, "Convex programming approach to powered descent guidance for Mars landing"; Blackmore,
 Acikmese and Scharf 2010, for the least miss.
@@ -59,7 +60,7 @@ WEIGHT = 30.0  # of the misses
 
 
 class DescentProblem(Record):
-    """Scaled data of a convex problem, and the units of the scaling."""
+    """Data of a convex problem, scaled, and the units of the scaling."""
 
     step = Field(unit="1", description="duration h of an interval")
     exhaust = Field(unit="1", description="exhaust speed v_e")
@@ -132,7 +133,9 @@ def roll_out(p: DescentProblem, expansion: list, k: int, point: list) -> None:
 
 
 def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list, field: int) -> None:
-    """Set the rows of ``c`` from ``field`` on: slacks of the point x for ``affine`` = 1, their linear terms for 0."""
+    """Set the rows of ``c`` from ``field`` on to the slacks of the point x for ``affine`` = 1, or to their linear
+    terms for 0.
+    """
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k
@@ -155,8 +158,8 @@ def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list
 
 
 def set_gradient(p: DescentProblem, expansion: list, c: list, field: int, weight: float, gradient: list) -> None:
-    """Set the gradient (as a point) of ``weight`` times the objective minus the product of slacks and the rows of
-    ``field``.
+    """Set ``gradient`` (as a point) to the gradient of ``weight`` times the objective minus the product of slacks
+    and the rows of ``field``.
     """
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):

@@ -1,7 +1,7 @@
 """Linear-quadratic problem of a search direction, solved by a backward Riccati recursion. Kernel functions.
 
-Over all controls with the dynamics x+ = A x + B u of `problem`, x'Hx/2 + gradient'x is minimised, with H = G' W^-2 G
-for the rows G of the slacks. The bounds on the end misses are eliminated first.
+The recursion minimises x'Hx/2 + gradient'x over all controls u under the dynamics x+ = A x + B u of `problem`, with H =
+G' W^-2 G for the rows G of the slacks. The bounds on the end misses are eliminated first.
 
 Source: Rao, Wright and Rawlings 1998, "Application of interior-point methods to model predictive control".
 """
@@ -46,7 +46,9 @@ def set_end_hessian(c: list, cost: list) -> None:
 
 
 def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: list, m: list, cost: list) -> None:
-    """Add the Hessian of interval ``k`` to R (4 x 4), to the mixed terms (4 x 7) and to those of the state (7 x 7)."""
+    """Add the Hessian of interval ``k`` to the control terms R (4 x 4), the mixed terms (4 x 7) and the state terms
+    (7 x 7).
+    """
     row = STAGE * k
     half = 0.5 * p.step / p.exhaust
     upper_limit = expansion[UPPER_LIMIT + k]
@@ -97,7 +99,7 @@ def decompose(r: list, gains: list, at: int) -> bool:
 
 
 def substitute(gains: list, at: int, x: list, first: int, stride: int) -> None:
-    """Replace four numbers of x, from ``first`` on and ``stride`` apart, by R^-1 times them."""
+    """Multiply four numbers of x, ``stride`` apart from ``first`` on, by R^-1."""
     for i in range(CONTROL):
         entry = x[first + stride * i]
         for n in range(i):
@@ -160,7 +162,7 @@ def factorise(p: DescentProblem, expansion: list, c: list, gains: list) -> bool:
 
 
 def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, step: list) -> None:
-    """Set ``step`` (as a point) to the minimiser of the factorised problem with a ``gradient``."""
+    """Set ``step`` (as a point) to the minimiser of the factorised problem for a ``gradient``."""
     h = p.step
     half = 0.5 * h * h
     burn = -h / p.exhaust
@@ -210,9 +212,10 @@ def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, ste
 
 
 def dual_residual(p: DescentProblem, gradient: list, costate: list) -> float:
-    """Set the costates (7 of each node) and return the largest derivative of the Lagrangian by a control or a bound.
+    """Set the costates (7 per node) and return the largest derivative of the Lagrangian with respect to a control or a
+    bound.
 
-    ``gradient`` is that of `set_gradient` with the multipliers.
+    `set_gradient` sets the ``gradient`` with the multipliers.
     """
     h = p.step
     last = STATE * INTERVALS

@@ -39,7 +39,7 @@ def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3
 def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3:
     """Return the mean thrust acceleration (m/s2) of a plan over ``span`` (s) from ``elapsed`` (s) on.
 
-    Before its start and after its end, a plan has its first and last thrust.
+    Before its start a plan has its first thrust, after its end its last thrust.
     """
     k = interval_at(step, elapsed)
     end = elapsed + span
@@ -58,8 +58,8 @@ def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3
 def tracking_thrust(feedforward: Vector3, position_error: Vector3, velocity_error: Vector3, largest: float) -> Vector3:
     """Return the thrust acceleration (m/s2) for tracking a plan.
 
-    ``feedforward`` (m/s2) is that of the plan; ``position_error`` (m) and ``velocity_error`` (m/s) are planned minus
-    actual values; ``largest`` (m/s2) is the largest thrust over mass.
+    ``feedforward`` (m/s2) is the plan's thrust acceleration; ``position_error`` (m) and ``velocity_error`` (m/s) are
+    planned minus actual values; ``largest`` (m/s2) is the largest thrust over mass.
     """
     correction = FREQUENCY * FREQUENCY * position_error + 2.0 * DAMPING * FREQUENCY * velocity_error
     limit = CORRECTION * largest
