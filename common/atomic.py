@@ -1,4 +1,4 @@
-"""Atomic files, complete or absent: written next to their path, then moved to it."""
+"""Files that are complete or absent: written next to their final path, then renamed to it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ PARTIAL = ".partial"
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Yield a temporary path whose file replaces ``path`` at the end of the block; create its folder.
+    """Yield a temporary path and rename its file to ``path`` at the end of the block; create the folder of ``path``.
 
-    A reader of ``path``, now or after a crash, finds the old content or the new one. Raises OSError with ``path`` if it
-    cannot be written, for instance on a full disk, and leaves nothing there.
+    A reader of ``path``, now or after a crash, finds either the old or the new content. Raises OSError, which names
+    ``path``, if the file cannot be written, for instance on a full disk; no temporary file remains.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
@@ -33,12 +33,12 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file completely or not at all; see `whole_file`."""
+    """Write a file completely or not at all, by `whole_file`."""
     with whole_file(path) as partial:
         partial.write_bytes(content)
 
 
 def remove_partial(folder: Path) -> None:
-    """Remove the temporary files of killed writers from a folder in which nobody writes any more."""
+    """Remove the temporary files of killed writers from a folder that has no active writer."""
     for path in folder.glob(f".*.*{PARTIAL}"):
         path.unlink(missing_ok=True)

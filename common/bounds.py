@@ -1,6 +1,6 @@
 """Bounds on the size of files and simulations, checked before memory is allocated.
 
-The environment variable of a bound, PERILUNE_ and its name in capitals, changes it.
+The environment variable named PERILUNE_ and the bound's name in capitals changes a bound.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ PREFIX = "PERILUNE_"
 
 
 class ExcessError(InputError):
-    """Input that exceeds a bound, and is not processed."""
+    """Input that exceeds a bound and is not processed."""
 
 
 @dataclass(frozen=True)
 class Bound:
-    """Upper bound: ``default`` unless the environment sets another; ``subject`` is the counted quantity."""
+    """Upper bound, ``default`` unless the environment sets another value; ``subject`` names the counted quantity."""
 
     name: str
     default: float

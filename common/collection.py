@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def no_collection() -> Iterator[None]:
-    """Disable the collector in a block that creates many objects without cycles."""
+    """Disable the garbage collector in a block that creates many objects without reference cycles."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

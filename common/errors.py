@@ -1,4 +1,4 @@
-"""Errors of wrong input, in one line that states place, problem and remedy; exit statuses."""
+"""Errors of wrong input, in one line that states place, problem and remedy; exit statuses of commands."""
 
 from __future__ import annotations
 
@@ -23,11 +23,12 @@ PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a paramete
 
 
 class InputError(ValueError):
-    """Wrong input: a file, an option, a name.
+    """Error raised for wrong input, such as a file, an option or a name.
 
-    ``file`` is the origin of the input (a path, or a parameter such as `` `require` ``), ``element`` the wrong element
-    of it, ``problem`` what is wrong and ``remedy`` what to do. In all four, parameters are in backquotes: Python shows
-    their names, the command line its options. The command line prints the error as one line and exits with status 2.
+    ``file`` is the origin of the input (a path, or a parameter such as `` `require` ``), ``element`` is its wrong
+    element, ``problem`` describes the error and ``remedy`` the correction. In all four texts, parameters of Perilune's
+    functions are in backquotes: Python shows their names, the command line the corresponding options. The command line
+    prints the error as one line and exits with status 2.
     """
 
     def __init__(self, file: str | os.PathLike[str], element: str, problem: str, remedy: str) -> None:
@@ -42,11 +43,11 @@ class InputError(ValueError):
         return self.line({})
 
     def line(self, flags: Mapping[str, str]) -> str:
-        """Return the error in one line, each parameter with its name in ``flags``, or its own name."""
+        """Return the error in one line, each parameter replaced by its name in ``flags``, or else by its own name."""
         return name_by_flags(self.text, flags)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """Return the lines that the command line prints: one, or for `SeveralProblemsError` one per problem."""
+        """Return the lines that the command line prints: one line, or one per problem for `SeveralProblemsError`."""
         return [self.line(flags)]
 
     @property
@@ -66,7 +67,7 @@ def _shorten(text: str) -> str:
 
 
 class SeveralProblemsError(InputError):
-    """Several problems with one input, a line each."""
+    """Several problems with one input, one line each."""
 
     def __init__(self, *texts: str) -> None:
         ValueError.__init__(self, *texts)
@@ -78,17 +79,19 @@ class SeveralProblemsError(InputError):
         return "\n".join(self.texts)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """Return a line for each problem."""
+        """Return one line for each problem."""
         return [name_by_flags(text, flags) for text in self.texts]
 
 
 def name_by_flags(text: str, flags: Mapping[str, str]) -> str:
-    """Return a message with each parameter replaced by its name in ``flags``, or by its own name."""
+    """Return a message with each parameter replaced by its name in ``flags``, or else by its own name."""
     return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 
 
 class EndedError(RuntimeError):
-    """Early end of work for a reason other than its input, such as an interruption; ``status`` is the exit status."""
+    """Error that ends work early for a reason other than its input, such as an interruption; ``status`` is the exit
+    status.
+    """
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message, status)
@@ -100,7 +103,7 @@ class EndedError(RuntimeError):
 
 
 class UnwrittenError(OSError):
-    """Result that could not be written to the folder of `output`; ``result`` is in memory."""
+    """Error raised if a result cannot be written to the folder of `output`; ``result`` is the result in memory."""
 
     def __init__(self, error: OSError, result: Any) -> None:
         super().__init__(error.errno, error.strerror or str(error), error.filename)
@@ -112,7 +115,7 @@ def _flag(match: re.Match[str]) -> str:
 
 
 def warn_in_one_line() -> None:
-    """Print warnings of this process in one line each, like errors, without the place in the source."""
+    """Print each warning of this process in one line, like errors, without its place in the source."""
     warnings.formatwarning = lambda message, *_: f"perilune: {PARAMETER.sub(_flag, str(message))}\n"
 
 
@@ -121,7 +124,9 @@ NEAR = 0.6  # least ratio of difflib, which is 1 for equal texts
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return a remedy for an unknown name: the most similar known names, or all if there are few or none is similar."""
+    """Return a remedy for an unknown name: the most similar known names, or all names if there are few or none is
+    similar.
+    """
     names = sorted(set(known), key=_natural)
     if not names:
         return "none is available"

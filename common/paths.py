@@ -1,6 +1,6 @@
 """Paths of systems, laws and built FMUs, in a checkout or inside the installed package.
 
-Compiled files go to `CACHE`, a user's builds to the working folder: an installed package is never written to.
+Compiled files are written to `CACHE`, a user's builds to the working folder, and nothing to an installed package.
 """
 
 from __future__ import annotations
@@ -43,5 +43,5 @@ def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
 
 
 def names_fmu(name: str | os.PathLike[str]) -> bool:
-    """Return True if a name is that of an FMU's file, also with its suffix in capitals, as some tools write it."""
+    """Return True if a name is the name of an FMU file, also with the suffix in capitals, as some tools write it."""
     return os.fspath(name).lower().endswith(".fmu")

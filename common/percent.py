@@ -1,12 +1,12 @@
-"""Fractions in per cent for pages and terminals, where 0 and 100 mean exactly none and all."""
+"""Fractions as percentages for pages and terminals, where 0 and 100 mean exactly none and all."""
 
 from __future__ import annotations
 
 
 def percent(fraction: float, decimals: int = 2) -> str:
-    """Format a fraction from 0 to 1 in %, without the sign, with ``decimals`` decimals: ``99.50``.
+    """Return a fraction from 0 to 1 in %, as text without the sign, with ``decimals`` decimals: ``99.50``.
 
-    Other fractions never appear as 0 or 100, but as ``< 0.01`` or ``> 99.99``.
+    A fraction other than 0 and 1 never appears as 0 or 100, but as ``< 0.01`` or ``> 99.99``.
     """
     text, minimum = f"{100.0 * fraction:.{decimals}f}", 10.0**-decimals
     if fraction > 0.0 and float(text) == 0.0:
@@ -17,6 +17,6 @@ def percent(fraction: float, decimals: int = 2) -> str:
 
 
 def short_percent(fraction: float, decimals: int = 2) -> str:
-    """Format a fraction as `percent` does, without trailing zeros, for running text: ``99.5``."""
+    """Return a fraction as `percent` does, without trailing zeros, for running text: ``99.5``."""
     text = percent(fraction, decimals)
     return text.rstrip("0").rstrip(".") if "." in text else text

@@ -1,8 +1,8 @@
-"""Process of a command: standard streams that do not abort its work, and its end.
+"""Standard streams that do not abort the work of a command, and the end of its process.
 
 A reader that exits, or a full disk, only truncates the output. The library of pythonfmu FMUs can crash in its
-destructors, after all work is done (10 of 64 runs), and would change the exit status: a process that ran them exits
-without them.
+destructors after all work is done (in 10 of 64 runs), which would change the exit status; `exit_process` ends a process
+without destructors.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
 
 
 class Stream:
-    """Text stream that never raises: after the first error, kept as ``error``, further output is dropped.
+    """Text stream that never raises: after the first error, stored as ``error``, further output is discarded.
 
-    Terminal control characters are written as by `visible`, characters that the encoding lacks as by Python. ``stream``
-    is None if the process was started without it.
+    Terminal control characters are escaped as by `visible`, and characters that the encoding lacks with a backslash.
+    ``stream`` is None if the process was started without it.
     """
 
     def __init__(self, stream: TextIO | None) -> None:
@@ -36,7 +36,7 @@ class Stream:
 
     @property
     def is_cut(self) -> bool:
-        """True if output was lost, other than by a reader that closed its end of a pipe."""
+        """True if output was lost for any reason except that a reader closed its end of a pipe."""
         return self.error is not None and self.error.errno not in CLOSED
 
     def write(self, text: str) -> int:
@@ -76,9 +76,10 @@ def guard_streams() -> Iterator[Stream]:
 
 
 def open_closed_streams() -> None:
-    """Open the null device as standard input, output or error if the process was started without it.
+    """Open the null device as standard input, output and error if the process was started without them.
 
-    Otherwise files opened later would get its number, and with it the output that libraries print.
+    Otherwise files opened later would get the descriptor of a missing stream, and the output that libraries print to
+    it.
     """
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
@@ -89,15 +90,17 @@ _farewells: list[Callable[[], object]] = []
 
 
 def at_end(farewell: Callable[[], object]) -> None:
-    """Register a function to call when this process ends, also by `exit_process`; the last one is called first."""
+    """Register a function to call when this process ends, also by `exit_process`; the last one registered is called
+    first.
+    """
     _farewells.append(farewell)
     atexit.register(farewell)
 
 
 def exit_process(status: int) -> NoReturn:
-    """End the process at once with an exit status, after flushing standard output and error.
+    """End the process immediately with an exit status, after flushing standard output and error.
 
-    Functions registered with `at_end` are called.
+    Functions registered with `at_end` are called before.
     """
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # a process can be started without them

@@ -1,4 +1,4 @@
-"""Progress of long work: a bar on a terminal or in a notebook, elsewhere a line on standard error every ten seconds."""
+"""Progress of long work: a bar on a terminal or in a notebook, otherwise a line on standard error every ten seconds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PERIOD = 10.0  # s between lines
 
 
 class ProgressLines(text_bar):
-    """Progress bar as lines of a log; the first appears after `PERIOD`, so that quick work writes none."""
+    """Progress bar in the form of log lines; the first appears after `PERIOD`, so quick work writes none."""
 
     monitor_interval = 0  # no thread that refreshes
 
@@ -25,7 +25,9 @@ class ProgressLines(text_bar):
         super().__init__(**options | lines)
 
     def display(self, msg: str | None = None, pos: int | None = None) -> bool:
-        """Write a line if `PERIOD` has passed since the last or the start; nothing when tqdm clears its bar."""
+        """Write a line if `PERIOD` has passed since the last line or the start; write nothing when tqdm clears its
+        bar.
+        """
         now = self._time()
         if msg is None and now - self._written >= PERIOD:
             self._written = now
@@ -42,7 +44,9 @@ class ProgressLines(text_bar):
 
 
 def progress_bar(**options: Any) -> text_bar:
-    """Return tqdm's bar with its ``options``, which disappears at the end; lines if standard error is no terminal."""
+    """Return tqdm's bar with ``options``, which disappears at the end, or log lines if standard error is not a
+    terminal.
+    """
     # tqdm asks whether its file is a terminal, which that of a notebook's cell is not
     if IN_NOTEBOOK or sys.stderr.isatty():
         return tqdm(**options, disable=False, leave=False)

@@ -1,4 +1,4 @@
-"""Reading of untrusted files: regular ones only, since opening a pipe waits and a link may lead anywhere."""
+"""Reading of untrusted files, only regular ones, since opening a pipe may block and a link may lead to any file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ KINDS = {
 
 
 def is_regular(path: Path) -> bool:
-    """Return True if a regular file exists and is not a link; its folder may be one."""
+    """Return True if a regular file exists and is not a link; its folder may be a link."""
     try:
         return stat.S_ISREG(path.lstat().st_mode)
     except OSError:
@@ -28,18 +28,18 @@ def is_regular(path: Path) -> bool:
 
 
 def check_regular(path: Path, remedy: str) -> None:
-    """Reject a missing path or one that is not a regular file. Raises InputError."""
+    """Reject a path that does not exist or is not a regular file. Raises InputError."""
     _size(path, remedy, follow_links=False)
 
 
 def check_folder(path: Path, remedy: str) -> None:
-    """Reject a path that is not a folder, or is a link to one. Raises InputError."""
+    """Reject a path that exists and is not a folder, or that is a link. Raises InputError."""
     if path.is_symlink() or (path.exists() and not path.is_dir()):
         raise InputError(path, "", f"{KINDS.get(stat.S_IFMT(path.lstat().st_mode), 'a file')}, not a folder", remedy)
 
 
 def names_file(path: str | os.PathLike[str]) -> bool:
-    """Return True if a regular file has this name, also through a link; False for text that cannot be a name."""
+    """Return True if a path leads to a regular file, also through a link; False for text that cannot be a path."""
     try:
         return Path(path).is_file()
     except (OSError, ValueError):
@@ -47,13 +47,13 @@ def names_file(path: str | os.PathLike[str]) -> bool:
 
 
 def read_input(path: str | os.PathLike[str], remedy: str, bound: Bound) -> bytes:
-    """Read a file by its path, also through a link; only regular files are opened. Raises InputError."""
+    """Read a regular file, also through a link; nothing else is opened. Raises InputError."""
     bound.check(_size(Path(path), remedy, follow_links=True), path, "")
     return _read(Path(path), remedy)
 
 
 def read_regular(path: Path, remedy: str, limit: float) -> bytes:
-    """Read a regular file of at most ``limit`` bytes. Raises InputError."""
+    """Read a regular file of at most ``limit`` bytes that is not a link. Raises InputError."""
     size = _size(path, remedy, follow_links=False)
     if size > limit:
         raise InputError(path, "", f"{size} bytes, at most {limit:.6g} are read", remedy)

@@ -1,4 +1,4 @@
-"""Temporary folders, removed with their process or, if it is killed, when another process creates one."""
+"""Temporary folders, removed when their process ends or, if it is killed, when another process creates one."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ YOUNG = 60.0  # s, in which a folder may not be locked yet
 
 
 def make_folder() -> Path:
-    """Create a temporary folder; its creator removes it, or it is removed with the process."""
+    """Create a temporary folder, which is removed by the caller or at the end of the process."""
     return Path(tempfile.mkdtemp(dir=_folder()[0]))
 
 
 def _remove_all() -> None:
-    """Remove all folders of this process, which is about to end."""
+    """Remove all temporary folders of this process at its end."""
     if _folder.cache_info().currsize:
         shutil.rmtree(_folder()[0], ignore_errors=True)
 
 
 @cache
 def _folder() -> tuple[Path, FileLock]:
-    """Return the folder that contains all of this process's folders, and its lock."""
+    """Return the folder that contains all temporary folders of this process, and its lock."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     _sweep(folder.stat().st_uid)
     at_end(_remove_all)
@@ -42,7 +42,7 @@ def _folder() -> tuple[Path, FileLock]:
 
 
 def _sweep(user: int) -> None:
-    """Remove the user's folders of ended processes; skip locks that are links, which could lead to any file."""
+    """Remove the folders of this user's ended processes; skip locks that are links, which could lead to any file."""
     for path in Path(tempfile.gettempdir()).glob(f"{PREFIX}*/{LOCK}"):
         with suppress(OSError, Timeout):
             state = path.lstat()

@@ -1,4 +1,4 @@
-"""Output files and folders of a command: checked before any simulation, written independently at the end."""
+"""Output files and folders of a command: checked before any simulation, written one by one at the end."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def check_encoding(option: str, name: str) -> None:
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
-    """Reject a file that cannot be written, by a trial before any simulation. Raises InputError.
+    """Check before any simulation, by opening the file, that it can be written. Raises InputError.
 
-    At most ``new_folders`` folders are created for it, none of them in the root.
+    At most ``new_folders`` folders may be missing and will be created when the file is written, but none in the root.
     """
     if path is None:
         return
@@ -58,8 +58,8 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
 def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "`overwrite`") -> None:
     """Reject a folder that cannot be written, or that contains results unless ``overwrite``. Raises InputError.
 
-    The folder and its parent may be new, but not in the root. ``otherwise`` is the option that permits a folder with
-    results.
+    The folder and its parent may be missing, but no new folder may be in the root. ``otherwise`` names the option that
+    permits a folder with results.
     """
     if path is None:
         return
@@ -72,7 +72,9 @@ def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: 
 
 
 def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> None:
-    """Reject a file in ``folder``, or the folder itself, that cannot be written; test in the nearest existing one."""
+    """Reject a file in ``folder``, or the folder itself, that cannot be written, by a trial in the nearest existing
+    folder.
+    """
     here = folder.absolute()
     folders = [here, *here.parents]
     nearest = next(place for place in folders if os.path.exists(place))
@@ -100,9 +102,10 @@ def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> No
 
 
 class Results:
-    """Output of a command; a file that cannot be written does not prevent others.
+    """Output of a command; failure to write one file does not prevent the others.
 
-    Created before an FMU is loaded, since one may change the process's working folder, to which paths are relative.
+    A command creates its instance before it loads an FMU, since an FMU may change the process's working folder, to
+    which paths are relative.
     """
 
     def __init__(self) -> None:
@@ -111,7 +114,7 @@ class Results:
         self.failed = False
 
     def write(self, path: Path | None, write: Callable[[Path], object]) -> None:
-        """Write one file or folder, if it is requested."""
+        """Write one file or folder if it is requested."""
         if path is None:
             return
         try:

@@ -1,4 +1,4 @@
-"""Conversion of results to JSON: frozen dataclasses become objects, with fields in order."""
+"""Conversion of results to JSON: frozen dataclasses become objects with their fields in order."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ OMITTED = "omitted where empty"
 
 
 def optional(default: Any = None) -> Any:
-    """Declare a field of a dataclass that JSON omits if it is None or an empty mapping; {} by `optional({})`."""
+    """Declare a dataclass field that JSON omits if it is None or an empty mapping; the default {} is copied."""
     if isinstance(default, dict):
         return field(default_factory=dict, metadata={OMITTED: True})
     return field(default=default, metadata={OMITTED: True})

@@ -1,4 +1,4 @@
-"""Untrusted text made safe for terminals, without control characters, and for columns of spreadsheets."""
+"""Untrusted text made safe for terminals, by escaping control characters, and for spreadsheets."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ BREAKS = re.compile("[\n\r\u2028\u2029]")
 
 
 def visible(text: str) -> str:
-    """Return the text with control characters as ``\\x1b`` or ``\\u202e``, which JSON can parse, too."""
+    """Return the text with control characters escaped as ``\\x1b`` or ``\\u202e``; JSON documents remain valid."""
     return CONTROLS.sub(_escape, text)
 
 
@@ -28,7 +28,7 @@ def visible_line(text: str, longest: int) -> str:
 
 
 def limit_lines(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
-    """Return at most ``limit`` lines, and a line that counts the omitted ``things``."""
+    """Return at most ``limit`` lines, followed by a line that counts the omitted ``things``."""
     more = f"and {len(lines) - limit} more {things}".rstrip()
     return [*lines[:limit], more] if len(lines) > limit else list(lines)
 
@@ -43,7 +43,7 @@ QUOTE = "'"  # spreadsheets read the rest as text
 
 
 def quote_formula(name: str) -> str:
-    """Return the name, preceded by a quote mark if a spreadsheet would read it as a formula or as quoted."""
+    """Return the name, preceded by a quote mark if a spreadsheet would read it as a formula or as quoted text."""
     return f"{QUOTE}{name}" if name.lstrip(QUOTE).startswith(FORMULAS) else name
 
 

@@ -1,4 +1,4 @@
-"""Zip archives of unknown origin: checked by their directory, each file when it is read."""
+"""Zip archives of unknown origin: the directory is checked at once, each file when it is read."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ UNREADABLE = (
 
 
 def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
-    """Open a zip archive without unpacking it. Raises InputError for anything else."""
+    """Open a zip archive without unpacking it. Raises InputError for damaged, unsafe or too large archives."""
     end = packed.rfind(END)
     if end >= 0:  # before zipfile makes an object of every entry; 65535 stands for as many or more
         ARCHIVE_ENTRIES.check(int.from_bytes(packed[end + 10 : end + 12], "little"), label, "archive")

@@ -1,1 +1,1 @@
-"""Processes that end with the process that started them, however it ends."""
+"""Processes that end when the process that started them ends, even if it crashes or is killed."""

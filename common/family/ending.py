@@ -1,4 +1,4 @@
-"""End of a process together with the one that started it, however that one ends."""
+"""Ending of a process when the process that started it ends, even if that process crashes or is killed."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ IS_LINUX = sys.platform == "linux"
 
 
 def end_with_parent(parent: int) -> None:
-    """End this process when its ``parent``, a process number, ends; at once if it has ended already.
+    """End this process when its ``parent`` (a process ID) ends, or immediately if the parent has ended already.
 
-    Linux ends it when the thread that started it ends, so that thread must live as long as this process.
+    Linux ends this process when the thread that started it ends, so the thread must live as long as this process.
     """
     if not IS_LINUX:
         end_after(parent)
@@ -29,7 +29,9 @@ def end_with_parent(parent: int) -> None:
 
 
 def end_after(process: int) -> None:
-    """Start a thread that ends this process when another process ends, whichever of its threads started this one."""
+    """Start a thread that ends this process when another process ends, whichever of its threads started this
+    process.
+    """
     threading.Thread(target=_wait_and_end, args=(process,), daemon=True).start()
 
 

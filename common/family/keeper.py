@@ -1,6 +1,6 @@
-"""Keeper of the program in its arguments: kills it with all its descendants once standard input closes.
+"""Supervisor of the program in its arguments: kills the program and all its descendants once standard input closes.
 
-A script for `programs`, in a separate session. It imports nothing of Perilune, to start quickly.
+`programs` runs this script in a separate session. To start quickly, the script imports no module of Perilune.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Pools of worker processes (loky) that end with this process, and at once if it gives up."""
+"""Pools of worker processes (loky) that end with this process, and immediately if an exception ends its work."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .ending import end_with_parent
 
 @contextmanager
 def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> Iterator[ProcessPoolExecutor]:
-    """Open a pool of ``count`` processes, each of which calls ``begin`` first, for the thread that opens it.
+    """Open a pool of ``count`` processes for the thread that calls this function; each process first calls ``begin``.
 
-    An exception in the block, including Ctrl-C, kills them, since their current work may take long.
+    An exception in the block, including Ctrl-C, kills the processes, since their current work may take long.
     """
     work = _Packed(partial(begin, *arguments))
     pool = ProcessPoolExecutor(count, initializer=_begin, initargs=(os.getpid(), work))
@@ -35,7 +35,7 @@ def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> I
 
 
 class _Packed:
-    """Content that a process unpickles after it has started, which may take seconds."""
+    """Content that a worker process unpickles only after its start, since this may take seconds."""
 
     def __init__(self, content: Any) -> None:
         self._content = content
@@ -47,7 +47,7 @@ class _Packed:
         self._content = pickled
 
     def unpack(self) -> Any:
-        """Return the content, in the receiving process."""
+        """Return the content; called in the receiving process."""
         return pickle.loads(self._content)
 
 

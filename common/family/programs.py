@@ -1,4 +1,4 @@
-"""Foreign programs, such as compilers, that end with this process, together with all that they have started."""
+"""Foreign programs, such as compilers, that end with this process, together with all their descendants."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POLLING = 0.1  # s between checks whether a program is still needed
 
 
 class Ended(NamedTuple):
-    """Outcome of a program: its output and its exit status, or a signal if negative."""
+    """Outcome of a program: its output, and its exit status or the negative number of the signal that ended it."""
 
     status: int
     output: str
@@ -25,9 +25,10 @@ class Ended(NamedTuple):
 def run_program(
     command: Sequence[str], folder: str | Path, is_needed: Callable[[], bool] = lambda: True
 ) -> Ended | None:
-    """Run a program in a folder to its end; return None if it is killed once ``is_needed`` returns False.
+    """Run a program in a folder to its end; if ``is_needed`` returns False, kill the program and return None.
 
-    It has a separate session, so that Ctrl-C only reaches the waiting process. Raises OSError if it cannot be run.
+    The program has a separate session, so that Ctrl-C only reaches the waiting process. Raises OSError if the program
+    cannot be run.
     """
     theirs, ours = os.pipe()  # is closed with this process, which ends the keeper and the program
     try:
@@ -59,7 +60,7 @@ def run_program(
 
 
 def _read(process: subprocess.Popen[bytes], is_needed: Callable[[], bool]) -> tuple[bytes, bytes]:
-    """Return the output of the program until it ends. Raises TimeoutError once it is not needed any more."""
+    """Return the output of a program when it ends. Raises TimeoutError once the program is no longer needed."""
     while True:
         try:
             return process.communicate(timeout=POLLING)

@@ -1,7 +1,7 @@
 """Conversion of columns between numpy and Arrow without copies.
 
-`pyarrow.array` and `to_numpy` load pandas to inspect their arguments, which takes a quarter of a second at the start of
-every batch.
+The functions replace `pyarrow.array` and `to_numpy`, which load pandas to inspect their arguments and thus take a
+quarter of a second at the start of every batch.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import pyarrow
 
 
 def numbers_of(values: np.ndarray) -> pyarrow.Array:
-    """Return numbers or Booleans (n,) without missing values; NaN is a number. Memory is shared if possible."""
+    """Return an Arrow array of numbers or Booleans of shape (n,), NaN as a number, with shared memory if possible."""
     if values.dtype == np.bool_:
         memory = np.packbits(values, bitorder="little")
     else:
@@ -23,7 +23,7 @@ def numbers_of(values: np.ndarray) -> pyarrow.Array:
 
 
 def texts_of(values: Iterable[str]) -> pyarrow.Array:
-    """Return texts in UTF-8 without missing values."""
+    """Return an Arrow array of texts in UTF-8."""
     encoded = [value.encode() for value in values]
     ends = np.cumsum([0, *map(len, encoded)], dtype=np.int32)
     return pyarrow.StringArray.from_buffers(
@@ -32,15 +32,16 @@ def texts_of(values: Iterable[str]) -> pyarrow.Array:
 
 
 def table_of(columns: Mapping[str, np.ndarray | pyarrow.Array | pyarrow.ChunkedArray]) -> pyarrow.Table:
-    """Return a table of columns by name, with the same types as in numpy."""
+    """Return an Arrow table of columns by name, with the types that the columns have in numpy."""
     arrays = [numbers_of(column) if isinstance(column, np.ndarray) else column for column in columns.values()]
     return pyarrow.Table.from_arrays(arrays, names=list(columns))
 
 
 def numpy_of(column: pyarrow.ChunkedArray) -> np.ndarray:
-    """Return numbers, Booleans or texts (n,) without missing values; texts as objects.
+    """Return numbers, Booleans or texts of an Arrow column as a numpy array of shape (n,); texts as objects.
 
-    Numbers in a single Arrow chunk share its memory, and must not be written to.
+    The column must not contain missing values. Numbers in a single Arrow chunk share its memory and must not be
+    modified.
     """
     chunk = column.chunk(0) if column.num_chunks == 1 else column.combine_chunks()
     if pyarrow.types.is_dictionary(chunk.type):

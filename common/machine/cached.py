@@ -1,6 +1,6 @@
 """Files of the cache folder: verified by checksum, written atomically, optional if they cannot be stored.
 
-A damaged file is written again, and an unusable cache is no error: either is reported once per process.
+A damaged file is written again, and an unusable cache is not an error; each of the two is reported once per process.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ _writing = threading.Lock()  # held by a thread that writes a file
 
 
 def cached_file(path: Path, make: Callable[[], bytes]) -> Path:
-    """Return a file of the cache; ``make`` returns its content if it is missing or damaged.
+    """Return the path of a file of the cache, written with the content from ``make`` if it is missing or damaged.
 
-    The same input must give the same content. If the cache is not writable, the file is a temporary one for this
-    process. Raises OSError if that cannot be written either.
+    ``make`` must always return the same content for a path. If the cache is not writable, the file is temporary and
+    belongs to this process. Raises OSError if the temporary file cannot be written either.
     """
     if _has_checksum(path):
         return path
@@ -58,7 +58,7 @@ def _has_checksum(path: Path) -> bool:
 
 
 def warn_damaged(path: Path) -> None:
-    """Warn of a damaged file, which is written again; once for all files of a cache."""
+    """Warn of a damaged file, which will be written again; once for all files of a cache."""
     home = _cache_of(path.parent)
     warn_once(f"damaged {home}", f"cache {home}: damaged files, such as {path.name}, are written again")
 
@@ -74,7 +74,7 @@ def _cache_of(folder: Path) -> Path:
 
 
 def warn_once(subject: str, text: str) -> None:
-    """Warn with a text, once per process and subject."""
+    """Issue a warning once per process and subject."""
     if subject not in _warned:
         _warned.add(subject)
         warnings.warn(text, stacklevel=3)

@@ -1,4 +1,4 @@
-"""Commit of this Perilune, if known: of a checkout, or of an installation by pip from a repository."""
+"""Git commit of this Perilune, if known: of a checkout, or of a repository from which pip installed it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ ORIGIN = "direct_url.json"  # file with the origin of a package that pip install
 
 
 def known_commit() -> str:
-    """Return the commit of this Perilune, with ``, modified`` if the checkout differs from it; "" if unknown."""
+    """Return the commit of this Perilune, with ``, modified`` if the checkout differs from it; "" if it is unknown."""
     return commit_of_checkout(ROOT) if IS_CHECKOUT else commit_of_origin(distribution("perilune").read_text(ORIGIN))
 
 
 def commit_of_checkout(root: Path) -> str:
-    """Return the commit of a folder that is the top of a repository; "" for others, and without git."""
+    """Return the commit of a folder that is the top of a repository; "" for another folder, or without git."""
     if not (root / ".git").exists():
         return ""
     command = ["git", "--no-optional-locks", "-C", str(root), "describe", "--always", "--exclude=*"]
@@ -33,6 +33,6 @@ def commit_of_checkout(root: Path) -> str:
 
 
 def commit_of_origin(origin: str | None) -> str:
-    """Return the commit in the content of an `ORIGIN` file; "" if it names no repository."""
+    """Return the commit in the content of an `ORIGIN` file; "" if the content names no commit."""
     commit = json.loads(origin or "{}").get("vcs_info", {}).get("commit_id", "")
     return str(commit)[:DIGITS]

@@ -1,4 +1,4 @@
-"""Errors of the operating system in one line: place, the system's reason, and a suitable remedy."""
+"""Errors of the operating system in one line: place, reason and a suitable remedy."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ OF_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO, e
 
 
 def is_of_machine(error: OSError) -> bool:
-    """Return True if an error is caused by the machine, whatever is written to it."""
+    """Return True if the machine causes an error, such as a full disk, independently of the file that is written."""
     return error.errno in OF_MACHINE
 
 
 def remedy_of(error: OSError) -> str:
-    """Return the remedy for an error with files, according to its number."""
+    """Return the remedy for an error with files, according to its error number."""
     return REMEDIES.get(error.errno or 0, OTHERWISE)
 
 
 def reason_of(error: OSError) -> str:
-    """Return the system's text for an error, without its number and its file."""
+    """Return the system's text for an error, without error number and file name."""
     return error.strerror or str(error)
 
 

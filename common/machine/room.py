@@ -1,4 +1,4 @@
-"""Check of free memory before tables over time are allocated."""
+"""Check of free memory before tables with a row for each time step are allocated."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ SMALL = 1e8  # bytes, up to which the free memory is not read
 
 
 def check_room(columns: int, rows: float, step: float, things: str = "signals") -> None:
-    """Raise ExcessError, which names the ``step`` (s), if free memory is too small for ``rows`` rows of numbers.
+    """Raise ExcessError, which names the ``step`` (s), if the free memory is too small for a table of ``rows`` rows.
 
-    ``things`` names the columns; one more column has the times.
+    ``things`` names the columns; one additional column contains the times.
     """
     needed = 8.0 * rows * (columns + 1)
     if needed > SMALL and needed > MEMORY_FRACTION.limit * psutil.virtual_memory().available:
