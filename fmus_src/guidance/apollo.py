@@ -1,6 +1,4 @@
-"""Apollo's lunar descent guidance: a quartic polynomial to the target; a given jerk at the target sets the time to
-go.
-"""
+"""Apollo's lunar descent guidance: a quartic polynomial to the target, where a prescribed jerk sets the time to go."""
 
 from ..block import Parameter, State
 from ..mathlib.lunar.polynomial_descent import DescentShape, jerk_time
@@ -9,7 +7,7 @@ from .polynomial_guidance import PolynomialGuidance
 
 
 class ApolloGuidance(PolynomialGuidance):
-    """Quartic polynomial of time to the target, as in Apollo's P63 and P64; a given final jerk sets the time to go.
+    """Quartic polynomial of time to the target, as in Apollo's P63 and P64; the final jerk sets the time to go.
 
     The final thrust acceleration is final_lift upwards and final_deceleration against the forward axis, which is
     horizontal towards the target at the start and then fixed. The time to go is the time for which the final jerk along

@@ -8,7 +8,7 @@ from .terminal_guidance import TerminalGuidance
 
 
 class AstarProgramme(TerminalGuidance, interface=True):
-    """Linear pitch and yaw programmes of method A*, for a given time to go and thrust acceleration W.
+    """Linear pitch and yaw programmes of method A*, for a known time to go and thrust acceleration W.
 
     In the axes of the method (x forward, y up, z right) the thrust acceleration is
 

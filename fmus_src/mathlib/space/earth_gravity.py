@@ -1,7 +1,7 @@
 """Gravity field of the Earth to degree 13: GGM03S. Kernel functions.
 
 Source: Tapley et al., The GGM03 mean Earth gravity model from GRACE, 2007. The coefficients are fully normalised, in
-the tide system of the publication, and belong to the gravitational parameter and radius given here.
+the tide system of the publication, and belong to the gravitational parameter and radius of this module.
 """
 
 from typing import Any
