@@ -1,8 +1,8 @@
 """Writer of web/generated/*.ts: TypeScript types of page documents and of the queries and answers of `perilune show`.
 
 The types are declared as dataclasses, TypedDicts and Structs next to the code that fills or reads them. The classes in
-`ROOTS` and all classes of their members are written, one file per module. Arrays become columns: of numbers inside a
-page, of another type where a script has decoded them.
+`ROOTS` and all classes of their members are written, one file per module. Arrays become columns, whose type is a number
+inside a page and the decoded array in a script.
 """
 
 from __future__ import annotations

@@ -18,8 +18,8 @@ PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
 def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
     """Describe a campaign of a system, or a campaign file. Raises InputError.
 
-    ``files`` are the campaign's file and those that it extends, ``values`` the merged entries in the order of reading:
-    ``name`` (the full TOML key), ``value``, ``file``, ``line``.
+    ``files`` are the campaign's file and the files that it extends. ``values`` are the merged entries in the order of
+    reading: ``name`` (the full TOML key), ``value``, ``file``, ``line``.
     """
     archive = open_system(system)
     raw, label = archive.campaign(campaign)

@@ -142,7 +142,8 @@ class Table:
 class Listing:
     """Rows of words without column heads, below a ``heading``; a terminal wraps the last cell, unless it is code.
 
-    ``columns`` are the widths (characters) of all columns but the last in a terminal, by default those of their cells.
+    ``columns`` are the widths (characters) of all columns but the last in a terminal, by default the widths of their
+    cells.
     """
 
     kind: ClassVar[str] = "listing"

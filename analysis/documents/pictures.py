@@ -22,7 +22,7 @@ class Figure:
     """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` are the text for screen readers.
 
     ``is_wide`` fills the width of the page; ``is_narrow`` puts three instead of two in a row. ``below`` is a second
-    chart over the same abscissa. ``look`` is that of the object named by the label. ``legend`` is for this figure
+    chart over the same abscissa. ``look`` is the look of the object that the label names. ``legend`` is for this figure
     alone. ``is_printed`` includes it on paper. ``trials`` returns the positions of marks of trials.
     """
 

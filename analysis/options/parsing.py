@@ -16,7 +16,7 @@ FindCompleter = Callable[[str], Completer]  # finds a completer by its declared 
 
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:
-    """Add a verb's arguments and options, its own options first.
+    """Add a verb's arguments and options, shared options last.
 
     ``is_complete`` includes the help texts of shared options.
     """

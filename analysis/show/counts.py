@@ -42,7 +42,7 @@ class Counter:
         return mask
 
     def document(self) -> Counts:
-        """Return all counts for the page; each figure ignores the ranges of its own columns."""
+        """Return all counts for the page; each figure ignores the ranges of the columns that it shows."""
         mask = self.select_rows()
         return {
             "outcomes": self._outcomes(mask),

@@ -52,7 +52,7 @@ class ScaleDocument(TypedDict):
 
 
 class HistogramCounts(TypedDict):
-    """Numbers of trials of each variant in each bar, followed by those with NaN, infinity and minus infinity."""
+    """Numbers of trials of each variant: in each bar, then with NaN, infinity and minus infinity."""
 
     counts: list[list[int]]
     scale: ScaleDocument | None

@@ -29,10 +29,11 @@ def disperse(
     replay: Callable[[str, int], str],
     tell: Callable[[int, int], None],
 ) -> dict[str, Dispersion]:
-    """Compute margins of every channel over the trials of a campaign, each linearised about its own simulation.
+    """Compute margins of every channel over the trials of a campaign, each linearised about its simulation.
 
     The campaign's draws, seeds and streams are used at the point. ``cells`` are the numbers of the relevant memory
-    cells; ``replay`` returns the command that studies one trial of one loop again. Raises InputError, StudyError.
+    cells; ``replay`` returns the command that repeats the study of one loop in one trial. Raises InputError,
+    StudyError.
     """
     tell(plan.campaign.trials, 0)
     (variant,) = plan.campaign.variants()

@@ -34,7 +34,7 @@ if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
 
 @dataclass(repr=False)
 class BatchResult(Documented, results.CampaignResult):
-    """Result of a campaign: ``summary`` has rates and statistics by variant, ``trials`` the underlying numbers.
+    """Result of a campaign: ``summary`` contains rates and statistics by variant, ``trials`` numbers by trial.
 
     ``requirements`` are the expressions of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
     """

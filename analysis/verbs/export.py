@@ -50,7 +50,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
     ``name`` is a block, a system or its folder, or a file; a user's block is searched by name in the .py files of the
     working folder. ``fmi`` 3 builds native FMUs of FMI 3.0, which needs a compiler. ``platforms`` of native FMUs are by
-    default those that are prebuilt, or for which a compiler is installed. ``flavour`` is native by default; blocks of a
+    default all that are prebuilt or for which a compiler is installed. ``flavour`` is native by default; blocks of a
     file are built in both flavours if a compiler is installed. ``ssp`` is the version of a system's documents (default:
     2 with FMUs of FMI 3.0), and ``studies`` are campaigns, stability or all, whose reports the .ssp contains as
     evidence. ``output`` is by default NAME.fmu or NAME.ssp in the working folder, or build/fmus for a file.

@@ -103,7 +103,7 @@ class ReplayResult(Result):
         )
 
     def _lines(self) -> list[str]:
-        """Return lines on the trial, which the terminal shows after those of the simulation."""
+        """Return lines on the trial, which the terminal shows after the lines of the simulation."""
         metrics = self.replayed.plan.campaign.metrics
         lines = outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
         lines += [faults_line(self.replayed.faults)] if self.replayed.faults else []

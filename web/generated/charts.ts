@@ -2,9 +2,11 @@
 
 // An axis: its ends as drawn, the first at the left or bottom, and its ticks with their labels.
 //
-// ``label`` identifies an abscissa shared by figures. ``named`` means that tick labels are not numbers, ``bare`` that
-// there are none; ``size`` (pt) is their text size. ``grid`` and ``marked`` mean that ticks have grid lines and tick
-// marks. ``few`` are the indices of the ticks that a figure shows up to the width ``narrow`` (px), if not all.
+// - ``label``: identifier of an abscissa shared by figures.
+// - ``named``: True if tick labels are not numbers; ``bare``: True if there are no tick labels.
+// - ``size``: text size of tick labels (pt).
+// - ``grid``, ``marked``: True if ticks have grid lines, tick marks.
+// - ``few``: indices of the ticks that a figure shows up to the width ``narrow`` (px), if not all.
 export interface Axis {
   label?: string;
   ends: [number, number];
@@ -32,9 +34,11 @@ export interface Marker {
 
 // A line through ``x`` and ``factor`` * ``y``.
 //
-// ``signal`` is stated if it differs from ``name``, ``time`` (s) if the abscissa is another quantity, ``metric`` if
-// the line is its distribution over the trials of a variant. ``reduced`` means that the line is an envelope,
-// ``beyond`` that marks are not clipped at the axes.
+// - ``signal``: name of the signal, if it differs from ``name``.
+// - ``time``: times (s), if the abscissa is another quantity.
+// - ``metric``: metric of which the line is the distribution over the trials of a variant.
+// - ``reduced``: True if the line is an envelope.
+// - ``beyond``: True if marks are not clipped at the axes.
 export interface Curve<Column = number> {
   x: Column;
   y: Column;

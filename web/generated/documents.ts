@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/show/documents.py.
 
-// A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``.
+// A column of a campaign; its numbers are in SI units, and ``factor`` converts them to ``unit``.
 export interface QuantityEntry {
   name: string;
   unit: string;
@@ -26,7 +26,7 @@ export interface CampaignEntry {
   quantities: QuantityEntry[];
 }
 
-// Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms.
+// Campaigns, and the numbers of bins per column, of bars per histogram and of initial histograms.
 export interface ShowDocument {
   campaigns: CampaignEntry[];
   bins: number;
@@ -34,14 +34,14 @@ export interface ShowDocument {
   figures: number;
 }
 
-// A range of numbers, linear if the knee is 0, else linear in asinh(x / knee).
+// Scale over a range of numbers: linear if the knee is 0, else linear in asinh(x / knee).
 export interface ScaleDocument {
   low: number;
   high: number;
   knee: number;
 }
 
-// Counts by variant: of the bars, then of NaN, infinity and minus infinity.
+// Numbers of trials of each variant: in each bar, then with NaN, infinity and minus infinity.
 export interface HistogramCounts {
   counts: number[][];
   scale: ScaleDocument | null;
@@ -56,7 +56,7 @@ export interface DotsDocument {
   variants: string;
 }
 
-// Trials over two columns: trials and failures per square, rows from the bottom; or few trials as dots.
+// Trials over two columns: trials and failures per square, in rows from the bottom, or dots if they are few.
 export interface GridCounts {
   x: ScaleDocument | null;
   y: ScaleDocument | null;
@@ -80,7 +80,7 @@ export interface Counts {
   grids: GridCounts[];
 }
 
-// A trial, the command that repeats it, and its numbers: null is NaN, a text is infinite.
+// A trial, the command that repeats it, and its numbers: NaN is null, and an infinite number is a text.
 export interface TrialEntry {
   row: number;
   trial: number;

@@ -6,7 +6,7 @@ export interface PanelLine {
   colour: string;
 }
 
-// A panel over time; its numbers are in SI, multiplied by ``factor`` they are in ``unit``.
+// A panel over time; its numbers are in SI units, and ``factor`` converts them to ``unit``.
 export interface FlightsPanel {
   title: string;
   unit: string;

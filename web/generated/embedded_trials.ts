@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/documents/of/batch/embedded_trials.py.
 
-// A metric or sampled input, by column name; numbers are in SI, multiplied by ``factor`` they are in ``unit``.
+// A metric or sampled input, by column name; its numbers are in SI, and ``factor`` converts them to ``unit``.
 export interface TrialQuantity {
   name: string;
   unit: string;
@@ -10,7 +10,7 @@ export interface TrialQuantity {
 // The trials of a variant as columns.
 //
 // ``command`` is the text before and after a trial's number in its replay command. ``status`` are indices of
-// ``statuses``; ``exact`` has numbers by row, non-finite ones as text.
+// ``statuses``. ``exact`` contains numbers by row; non-finite ones are texts.
 export interface VariantTrials<Column = number> {
   name: string;
   command: [string, string];

@@ -87,8 +87,8 @@ export interface GroundView {
 
 // The initial camera: its vertical ``field``, its direction from a body (rad), its distance.
 //
-// The azimuth is measured from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
-// bodies are in view with a margin of ``room``.
+// The azimuth is an angle about the up axis from the forward direction. The distance is ``diagonals`` diagonals of the
+// body, or more if needed to have all bodies in view, with ``room`` as factor on their extent.
 export interface CameraStart {
   field: number;
   azimuth: number;

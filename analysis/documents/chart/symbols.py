@@ -42,9 +42,9 @@ SHAFT, HEAD, BARB = 0.018 * 72.0, 4.5, 5.5  # shaft's width (pt); head's width a
 
 
 def marker(kind: str, size: float, colour: str, *, fill: str | None = None, width: float = 1.0) -> Marker:
-    """Return the mark for one of matplotlib's marker letters; ``size`` and edge ``width`` in pt.
+    """Return the mark for one of matplotlib's marker letters; ``size`` and edge ``width`` are in pt.
 
-    ``fill`` is the fill colour, by default that of the edge; empty for no fill.
+    ``fill`` is the fill colour, by default the colour of the edge; empty for no fill.
     """
     painted = "" if kind in STROKES else colour if fill is None else fill
     edge = colour.lower() if width > 0.0 else ""

@@ -90,7 +90,7 @@ def fault_text(fault: str) -> str:
 
 
 def parameter_text(edge: Edge) -> str:
-    """Return the text of a parameter set by another one: its name, and the name of the other parameter if different."""
+    """Return the text of a parameter that another one sets: its name, and the name of the other if different."""
     source, target = (
         key.name.removesuffix("[]") + elements
         for key, elements in zip((edge.source, edge.target), edge.elements, strict=True)

@@ -206,7 +206,7 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class PathFigure(FigureDeclaration):
-    """A scalar over another one or an arc, on ``equal`` scales if requested; ``points`` are further positions."""
+    """A scalar over another scalar or an arc, on ``equal`` scales if requested; ``points`` are further positions."""
 
     x: Signal | Arc
     y: Signal
@@ -227,7 +227,7 @@ MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
 class SequencerPhase:
     """The name of a sequencer's phase with this ``value``.
 
-    Consecutive phases may have the same value; each but the last then ends at the first sample at which its ``until``
+    If consecutive phases have the same value, each of them but the last ends at the first sample at which its ``until``
     is not 0.
     """
 
@@ -307,7 +307,7 @@ class BoundValues:
 
 @dataclass(frozen=True)
 class BudgetItem:
-    """A row of a budget: the consumption of ``phases`` plus the bound's values ``plus``, minus those in ``minus``."""
+    """A row of a budget: consumption of ``phases``, plus the bound's values ``plus``, minus its values ``minus``."""
 
     name: str
     phases: tuple[str, ...]

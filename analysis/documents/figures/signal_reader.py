@@ -168,9 +168,9 @@ class SignalReader(AnnotationReader):
         like: Signal | None = None,
         types: Collection[str] = NUMBERS,
     ) -> Signal:
-        """Read the recorded signal named by an attribute, in its own unit or in ``unit``.
+        """Read the recorded signal named by an attribute, in its unit or converted to ``unit``.
 
-        With ``like`` it must have as many elements as that signal, and is converted to its unit.
+        With ``like`` it must have as many elements as this other signal, and is converted to the other's unit.
         """
         name = element.get(attribute, "").strip()
         what = f"{attribute} {name}"

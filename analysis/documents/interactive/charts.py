@@ -1,7 +1,7 @@
 """Charts as numbers: axes, lines, areas and notes, which the page's script redraws.
 
 Titles, axis labels and legends remain in the page's SVG and are not included. A page omits fields that are empty by
-default and empty in a chart, and always those of `PICTURE`.
+default and empty in a chart, and all fields with the metadata `PICTURE`.
 """
 
 from __future__ import annotations
@@ -202,5 +202,5 @@ class Drawing(NamedTuple):
 
     @property
     def drawings(self) -> list[Drawing]:
-        """The figure and those below it."""
+        """The figure and all figures below it."""
         return [self, *([] if self.below is None else self.below.drawings)]

@@ -10,7 +10,7 @@ SPANS = 1000  # spans of an envelope, whose numbers of rows differ by at most on
 def envelope(x: np.ndarray, y: np.ndarray, spans: int = SPANS) -> tuple[np.ndarray, np.ndarray]:
     """Return the envelope of a line: for each span its first abscissa, twice, with minimum and maximum.
 
-    The ordinates of a span without finite values are NaN. A line of at most two rows per span is its own envelope.
+    The ordinates of a span without finite values are NaN. A line of at most two rows per span is returned unchanged.
     """
     if y.size <= 2 * spans:
         return x, y

@@ -32,7 +32,7 @@ def wrap_line(line: str, indent: int) -> list[str]:
 
 
 def listing_lines(listing: Listing) -> list[str]:
-    """Return the lines of a listing; columns have the stated widths, or those of their cells up to LONGEST."""
+    """Return the lines of a listing; columns have the stated widths, or the widths of their cells up to LONGEST."""
     heading, before = ([listing.heading], INDENT) if listing.heading else ([], "")
     rows = [[before + cell_text(row[0]), *map(cell_text, row[1:])] for row in listing.rows]
     if listing.columns:

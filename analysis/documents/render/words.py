@@ -72,7 +72,7 @@ def rich_text(content: Rich) -> str:
 
 
 def heads_of(table: Table) -> list[str]:
-    """Return the headings of all columns as text; a heading across several columns precedes each of theirs."""
+    """Return the heading of every column as text, preceded by a common heading of several columns if it has one."""
     heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
     return [" ".join(filter(None, (head.text, each))) for head in heads for each in head.below or [""]]
 

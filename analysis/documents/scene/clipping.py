@@ -1,4 +1,7 @@
-"""Clipping of polygons and paths at the edges of a picture. Points are those of `Camera.look`: right, up, depth (m)."""
+"""Clipping of polygons and paths at the edges of a picture.
+
+Points are in the axes of `Camera.look`: right, up, depth (m).
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Drawing order of a picture's strokes such that nearer ones hide farther ones (after Newell et al. 1972).
 
-Points are those of `Camera.look`: right, up, depth (m), with the eye at the origin.
+Points are in the axes of `Camera.look`: right, up, depth (m), with the eye at the origin.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Stroke(NamedTuple):
 
 
 def in_order(strokes: list[Stroke]) -> list[Stroke]:
-    """Return the strokes, each after those that it may hide; by depth alone if they hide each other cyclically."""
+    """Return the strokes, each after all strokes that it may hide; by depth alone if they form a cycle."""
     by_depth = sorted(strokes, key=lambda stroke: -stroke.depth)
     flat = [stroke.points[:, :2] / stroke.points[:, 2:] for stroke in by_depth]
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in flat]

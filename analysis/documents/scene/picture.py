@@ -73,7 +73,7 @@ def _draw_paths(scene: SceneView, camera: Camera, ground: Ground | None) -> Iter
 
 
 def _thin(points: np.ndarray) -> np.ndarray:
-    """Return the points of a path, [n, 2], without those closer than `STEP` to the previous one; the end is kept."""
+    """Return the points of a path, [n, 2], at least `STEP` apart; the last point is kept."""
     chosen = [0]
     for index in range(1, len(points)):
         if index == len(points) - 1 or math.dist(points[index], points[chosen[-1]]) > STEP / HEIGHT:

@@ -37,7 +37,7 @@ def rotate(quaternion: np.ndarray, vector: np.ndarray) -> np.ndarray:
 
 
 def normalise(vector: np.ndarray) -> np.ndarray:
-    """Scale vectors or quaternions to norm 1; those of norm 0 become NaN."""
+    """Scale vectors or quaternions to norm 1; vectors of norm 0 become NaN."""
     length = np.sqrt(np.sum(vector**2, axis=0))
     return vector / np.where(length > 0.0, length, np.nan)
 

@@ -103,7 +103,7 @@ def arrow_strokes(scene: SceneView, camera: Camera, ground: Ground | None, row: 
 
 
 def _head(ends: np.ndarray, width: float) -> np.ndarray:
-    """Return the corners of an arrow head, [3, 2], with the tip second; ``ends`` are those of its shaft, [2, 2]."""
+    """Return the corners of an arrow head, [3, 2], with the tip second; ``ends`` are the ends of the shaft, [2, 2]."""
     along = ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     across = np.array([-along[1], along[0]]) * (width / (2.0 * length) if length > 0.0 else 0.0)

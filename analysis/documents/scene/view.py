@@ -290,7 +290,7 @@ def _line(line: Line, result: FlightResult) -> LineView:
 
 
 def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: FlightResult) -> ArrowView:
-    """Return an arrow with components in axes of this attitude, [4, n], or in those of the scene."""
+    """Return an arrow with components along the axes of this attitude, [4, n], or along the scene's axes."""
     direction = normalise(arrow.signal.values(flight))
     return ArrowView(
         name=arrow.name,

@@ -37,7 +37,7 @@ class ElementKind:
     - ``kinks``: function that returns the amplitudes, ascending, at which N is not smooth, up to ``farthest``.
     - ``farthest``: function that returns the amplitude above which N is practically constant (inf: N tends to 0).
     - ``output``: function that returns the largest output, inf without limit, so that abs(N) <= 4 output/(pi a).
-    - ``of_integral``: True if the amplitude is that of the integral of the input over time.
+    - ``of_integral``: True if the amplitude refers to the integral of the input over time.
     - ``note``: assumptions.
     """
 

@@ -136,7 +136,7 @@ class LiftedModel:
         return replace(self, a=a, b=b, cu=cu, cv=cv, names=(), variables={})
 
     def poles(self) -> np.ndarray:
-        """Return closed-loop multipliers over the hyperperiod, without those at 0, largest first."""
+        """Return closed-loop multipliers over the hyperperiod, without multipliers at 0, largest first."""
         values = np.linalg.eigvals(self.lasting.a)
         return values[np.argsort(-abs(values), kind="stable")]
 
@@ -145,7 +145,7 @@ class LiftedModel:
         return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
 
     def open_loops(self, ports: tuple[SampledChannel, ...]) -> np.ndarray:
-        """Return multipliers with the cuts of these ports open and the other loops closed, without those at 0."""
+        """Return nonzero multipliers with the cuts of these ports open and the other loops closed."""
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
         a = self.a - self.b[:, rows] @ inside

@@ -37,8 +37,8 @@ def element_report(
     """Report the harmonic balance of an element at a cut with the linear remainder of the loop, L = ``response``.
 
     ``prepare`` returns the system with the layer of the element, in which its limit cycle is simulated: amplitude and
-    period are those of the return signal, integrated if N is a function of the integral. Raises InputError for invalid
-    parameters of the element.
+    period are read from the return signal, or from its integral if N is a function of the integral. Raises InputError
+    for invalid parameters of the element.
     """
     try:
         parameters = complete_parameters(element.kind, element.parameters)

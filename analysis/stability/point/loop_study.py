@@ -72,7 +72,7 @@ class LoopStudy:
                 self.notes["frequency-response test"] = str(error)
 
     def refine(self) -> None:
-        """Measure at the crossings as well, if margins are those of the frequency-response test."""
+        """Measure at the crossings as well, if the margins are from the frequency-response test."""
         if self.measured is None or self.injector is None or not self._by_measurement or self._silent:
             return
 
@@ -123,7 +123,7 @@ class LoopStudy:
 
     @property
     def _by_measurement(self) -> bool:
-        """True if margins are those of the test: the loop is linear, and the linearisation cannot be trusted."""
+        """True if the margins are from the test: the loop is linear, and the linearisation cannot be trusted."""
         if self.measured is None:
             return False
         overlooked = self._model_silent and not self._measurement_silent

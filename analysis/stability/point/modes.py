@@ -1,8 +1,8 @@
 """Multipliers of a whole system, closed-loop modes of a loop's linear model, and their controllability at a cut.
 
 Cells that affect each other form a block. In topological order the blocks are on the diagonal of a triangular matrix:
-the multipliers of the whole system are those of its blocks. Cells that do not affect themselves have the multiplier 0,
-and a cell that only accumulates others has the multiplier 1.
+the multipliers of the whole system are the multipliers of its blocks. Cells that do not affect themselves have the
+multiplier 0, and a cell that only accumulates others has the multiplier 1.
 
 Source: Tarjan 1972, Depth-first search and linear graph algorithms (strongly connected components).
 """
@@ -25,7 +25,7 @@ ADDS_UP = 1e-6  # distance from 1: a cell with such a multiplier only accumulate
 
 
 def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
-    """Return all modes of a reduced model, except those at 0, largest multiplier first."""
+    """Return all modes of a reduced model, except modes at 0, largest multiplier first."""
     lasting = model.lasting
     if not lasting.a.size:
         return ()

@@ -139,7 +139,7 @@ def _vector(network: Network, name: str, where: str) -> list[str]:
 
 
 def _connectors(network: Network, name: str, where: str) -> list[str]:
-    """Return the Real connectors of a name: the connector itself, or those of the vector with this name."""
+    """Return the Real connectors of a name: the connector itself, or all connectors of the vector with this name."""
     connectors = elements(name, network.nodes)
     if not connectors:
         known = [node.name for node in network.nodes.values() if node.component is not None]

@@ -60,7 +60,7 @@ class LoopReport:
 
     @property
     def judged(self) -> tuple[MarginRequirement, ...]:
-        """All requirements, those of the dispersion last."""
+        """All requirements, with requirements on the dispersion last."""
         return self.requirements + (self.dispersion.requirements if self.dispersion is not None else ())
 
     @property

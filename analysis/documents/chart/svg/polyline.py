@@ -37,7 +37,7 @@ def _finite_runs(finite: np.ndarray) -> list[slice]:
 
 
 def _thin(points: np.ndarray) -> np.ndarray:
-    """Return points, [2, rows], without those on the chord of their neighbours."""
+    """Return points, [2, rows], without points on the chord of their neighbours."""
     for _ in range(PASSES):
         before, here, after = points[:, :-2:2], points[:, 1:-1:2], points[:, 2::2]
         size = min(here.shape[1], after.shape[1])

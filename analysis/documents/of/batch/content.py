@@ -42,7 +42,7 @@ class BatchContent:
 
     @cached_property
     def sorted_metrics(self) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-        """The metrics that vary, the constant ones with their values, and those without a finite value."""
+        """The metrics that vary, constant metrics with their values, and metrics without a finite value."""
         return sort_metrics(self.batch)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Empirical distributions of a batch's metrics: first those of success and requirements, then the others."""
+"""Empirical distributions of a batch's metrics: metrics of success and requirements first, then the others."""
 
 from __future__ import annotations
 

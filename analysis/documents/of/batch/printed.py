@@ -27,7 +27,7 @@ from ..unmet import requirement_problems
 
 
 def printed_lines(batch: CampaignResult, metrics: Sequence[str]) -> list[str]:
-    """Return the summary with ``metrics`` (default: those of success and requirements), followed by further lines."""
+    """Return the summary with ``metrics``, by default the metrics of success and requirements, and further lines."""
     return [*batch.text(metrics).splitlines(), *worst_lines(batch), *status_meanings(batch.plan, batch)]
 
 

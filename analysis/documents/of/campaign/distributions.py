@@ -42,7 +42,7 @@ def metric_values(batch: CampaignResult, metric: str) -> dict[str, np.ndarray]:
 
 
 def sort_metrics(batch: CampaignResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Return the metrics that vary, the constant ones with their values, and those without a finite value."""
+    """Return the metrics that vary, constant metrics with their values, and metrics without a finite value."""
     varying, constant, empty = [], [], []
     for metric in batch.plan.campaign.metrics:
         statistics = [entry.metrics_all[metric.name] for entry in batch.summary.values()]

@@ -19,7 +19,7 @@ KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", 
 
 
 def names_of_record(provenance: CampaignProvenance) -> list[str]:
-    """Return the recorded signals to plot: those listed by the campaign, or in full traces those with known names.
+    """Return the recorded signals to plot: all that the campaign lists, or in full traces all with known names.
 
     If several components record a variable of the same name, since inputs repeat outputs, the first component is
     chosen.

@@ -69,7 +69,7 @@ def _final_masses(comparison: CampaignComparison) -> dict[Metric, dict[str, np.n
 def sort_metrics(
     distributed: Mapping[Metric, Mapping[str, np.ndarray]],
 ) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Return the metrics that vary, the constant ones with their values, and those without a finite value."""
+    """Return the metrics that vary, constant metrics with their values, and metrics without a finite value."""
     plotted, still, empty = [], [], []
     for metric, by_label in distributed.items():
         values = np.concatenate(list(by_label.values()))

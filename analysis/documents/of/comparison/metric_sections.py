@@ -32,7 +32,7 @@ def distribution_section(content: ComparisonContent) -> Section:
 
 
 def other_distribution_section(content: ComparisonContent) -> list[Section]:
-    """Return the distributions of other metrics; constant metrics and those without a finite value in words."""
+    """Return the distributions of other metrics; constant metrics and metrics without a finite value as text."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
     nodes: list[Node] = [

@@ -48,7 +48,7 @@ class PairRow(Generic[T]):
 
 @dataclass(frozen=True)
 class PairGroup(Generic[T]):
-    """All pairs for one rate or metric: those with the reference, and the others."""
+    """All pairs for one rate or metric: pairs with the reference first, then the others."""
 
     name: str
     unit: str

@@ -144,7 +144,7 @@ def path_figure(series: Sequence[Series]) -> list[Figure]:
 
 
 def bound_figure(study: LandingStudy, series: Sequence[Series]) -> list[Figure]:
-    """Return range and altitude of a landing, each axis on its own scale, as wide as the page."""
+    """Return altitude over range of a landing, with separate scales of the axes, as wide as the page."""
     path, radius = study.bound, study.landing.radius
     x, y = path.position[:, 0], path.position[:, 1] + radius
     central = np.arctan2(x, y)

@@ -170,7 +170,7 @@ def _figures(groups: list[SignalGroup], result: FlightResult, name: str, *, is_r
 
 
 def _legend(groups: list[SignalGroup]) -> list[LegendEntry]:
-    """Return the line styles of elements along named axes, and those of the longest other vector."""
+    """Return the line styles of elements along named axes, and of the elements of the longest other vector."""
     vectors = [group for group in groups if group.indices]
     unnamed = max((group.labels for group in vectors if not group.is_named), key=len, default=())
     series = [*(group.labels for group in vectors if group.is_named), unnamed]

@@ -98,7 +98,7 @@ def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def figures_by_part(loop: LoopReport, name: str) -> ByPart:
-    """Return all figures of a loop: by name those of the article's sections, others under an empty key."""
+    """Return all figures of a loop by section of its article; figures of no section have an empty key."""
     return {
         SIGHT: overview_figures(loop, name),
         "": loop_figures(loop, name),

@@ -52,7 +52,7 @@ def withheld_line(report: StabilityStudy, subject: LoopReport | JointReport, ite
 
 
 def order_note(item: MarginRequirement) -> str:
-    """Return a requirement's note for a table: its own, or why it is withheld."""
+    """Return the note on a requirement for a table: the requirement's note, or the reason why it is withheld."""
     if item.verdict is not MarginVerdict.WITHHELD or item.as_feedthrough is None:
         return item.note
     return f"{_value(item.as_feedthrough)} as feedthrough"

@@ -49,7 +49,7 @@ def kind_of(figure: Figure) -> str:
 
 
 def has_separate_figures(shared: SharedFigures) -> bool:
-    """Return True if a loop has separate figures instead of references to those of another loop."""
+    """Return True if a loop has separate figures instead of references to another loop's figures."""
     return FIRST in [kind_of(figure) for figures in shared.figures.values() for figure in figures]
 
 

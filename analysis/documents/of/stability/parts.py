@@ -199,7 +199,7 @@ def dispersion_rows(dispersion: Dispersion) -> Part:
 
 
 def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
-    """Return the limit cycles predicted by harmonic balance, and those found by simulation."""
+    """Return the limit cycles predicted by harmonic balance, and the limit cycles found by simulation."""
     rows: list[tuple[Cell, ...]] = []
     for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None

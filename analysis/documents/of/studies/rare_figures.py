@@ -188,7 +188,7 @@ def design_chart(study: RareOutcome, one: str, other: str) -> Chart:
 
 
 def interval_figures(study: RareOutcome) -> list[Figure]:
-    """Return the interval of this study, and those of Monte Carlo."""
+    """Return the interval of this study, and the intervals of Monte Carlo campaigns."""
     rows = equivalents(study)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, study.probability)
     return [Figure("", "interval", words, chart, 0.8 + 0.5 * len(rows), is_wide=True)]

@@ -37,7 +37,7 @@ class QuantityFrame:
     held: bool
 
     def chart(self, curves: Sequence[Curve], areas: Sequence[Area], note: str = "") -> Chart:
-        """Return the chart of ``curves``, with the expected range of a consistent filter's errors."""
+        """Return the chart of ``curves``, with the range expected of a consistent filter's errors."""
         start, end = self.time
         margin = 0.06 * (self.high - self.low) or 0.06 * abs(self.high) or 1.0
         return Chart(

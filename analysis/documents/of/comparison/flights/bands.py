@@ -43,9 +43,9 @@ class Bands:
 def bands_of(quantity: FlightQuantity, flights: Sequence[ComparedFlight]) -> Bands | None:
     """Return percentiles, at each time over the simulations that last until then; None if none has the quantity.
 
-    Times are those of the longest simulation, usually shared by the others; elsewhere a value is interpolated linearly,
-    or held if it is an Integer or Boolean. A command in the last row of a simulation never acts and is omitted. Errors
-    over sigma include failed simulations.
+    Times are taken from the longest simulation, and usually the others have the same times; elsewhere a value is
+    interpolated linearly, or held if it is an Integer or Boolean. A command in the last row of a simulation never acts
+    and is omitted. Errors over sigma include failed simulations.
     """
     good, bad = (
         [_history(quantity, flight) for flight in flights if flight.success == success and _has(flight, quantity)]

@@ -111,7 +111,7 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
 
 
 def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
-    """Return the trials of each variant to display over time: trials common to all variants or, without any, its own.
+    """Return the trials of each variant to display over time: common trials if there are any, else all.
 
     If the campaign records a sample of trials, failed trials recorded in addition are ignored, since they would be
     overrepresented.

@@ -101,7 +101,7 @@ def _line(path: Polyline, colour: str) -> Curve:
 
 
 def _frame(bundles: Mapping[str, VariantPaths]) -> list[FlightPath]:
-    """Return the paths that determine the scale: those of successful trials, or all if none succeeded."""
+    """Return the paths that determine the scale: all paths of successful trials, or all paths if none succeeded."""
     paths = [path for bundle in bundles.values() for path in bundle.paths]
     return [path for path in paths if path.success] or paths
 

@@ -1,4 +1,4 @@
-"""A scalar over another one as a path, with further positions as marks."""
+"""A scalar over another scalar as a path, with further positions as marks."""
 
 from __future__ import annotations
 

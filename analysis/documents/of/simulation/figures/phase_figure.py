@@ -34,7 +34,7 @@ class PhaseSpan:
 
 
 def spans_of(phases: PhasesFigure, flight: Flight) -> list[PhaseSpan]:
-    """Return the phases in order of time; a value without a name becomes its own name.
+    """Return the phases in order of time; a phase without a name is named by its value.
 
     A phase lasts from its first sample to the first sample of the next one, the last phase until the end.
     """

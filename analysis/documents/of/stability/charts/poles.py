@@ -36,7 +36,7 @@ def are_crowded(poles: np.ndarray) -> bool:
 
 
 def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
-    """Return all poles, or those near z = 1.
+    """Return all poles, or only poles near z = 1.
 
     Crosses are modes that are controllable and observable at the cut; poles with |z| >= 1 are orange.
     """
