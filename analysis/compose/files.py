@@ -105,7 +105,7 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
     for path, content in contents.items():
         if os.path.lexists(path) and read_input(path, "move this file away", ARCHIVE_BYTES) != content:
             raise InputError(
-                option or path, str(path) if option else "", f"exists already, {OTHERWISE}", "move this file away"
+                option or path, str(path) if option else "", f"already exists, {OTHERWISE}", "move this file away"
             )
     for path, content in contents.items():
         write_atomically(path, content)

@@ -164,7 +164,7 @@ def _components(table: TomlTable, lines: _Lines) -> Iterator[tuple[str, Componen
         where = lines.of_key(f"components.{name}")
         if not COMPONENT_NAME.fullmatch(name):
             raise table.error(
-                name, "not a name of a component", "write a name without dots, commas, brackets and spaces"
+                name, "not a valid component name", "write a name without dots, commas, brackets and spaces"
             )
         if isinstance(stated, dict):
             entry = table.table(name)

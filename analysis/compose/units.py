@@ -21,7 +21,7 @@ def collect_units(source: SystemSource, wiring: Wiring) -> dict[str, Unit]:
         if unit is not None and not unit.is_same(units.setdefault(unit.name, unit)):
             where = f"{component}.{name}" if component else name
             known = units[unit.name]
-            problem = f"unit is {unit.differs_from(known)} here, {known.differs_from(unit)} elsewhere"
+            problem = f"its unit is {unit.differs_from(known)} here and {known.differs_from(unit)} elsewhere"
             problems.append(source.problem(where, problem, "use a different name for each unit"))
     for name in annotation_units(source):
         units.setdefault(name, unit_by_name(name))

@@ -56,7 +56,7 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
         if not component and "." in name:
             first = name.partition(".")[0]
             raise source.problem(f"set.{name}", f"no component {first}", suggestion(first, fmus))
-        raise source.problem(f"set.{name}", "no parameter of this name", suggestion(variable, collapse(known)))
+        raise source.problem(f"set.{name}", "no parameter has this name", suggestion(variable, collapse(known)))
     prefix = f"{component}." if component else ""
     return {prefix + each: known[each] for each in names}
 
@@ -66,7 +66,7 @@ def _convert(
 ) -> Iterator[tuple[str, float | int | bool]]:
     values = _flatten(source, name, setting, array_shapes(types))
     if len(values) != len(types):
-        problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)}"
+        problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for {len(types)} elements"
         raise source.problem(f"set.{name}", problem, "give one value for each element")
     for (element, type_name), each in zip(types.items(), values, strict=True):
         is_truth = type_name == "Boolean"
@@ -88,9 +88,11 @@ def _flatten(
     shape = next(iter(shapes.values()), ())
     if len(shape) != 2 or [len(row) for row in rows] != [shape[1]] * shape[0] or len(rows) != len(setting):
         problem = (
-            f"not {shape[0]} rows of {shape[1]}" if len(shape) == 2 else "rows given, but the parameter is not a matrix"
+            f"not {shape[0]} rows of {shape[1]} values"
+            if len(shape) == 2
+            else "contains rows, but the parameter is not a matrix"
         )
-        raise source.problem(f"set.{name}", problem, "give one number for each element, row by row")
+        raise source.problem(f"set.{name}", problem, "give one value for each element, row by row")
     return [each for row in rows for each in row]
 
 

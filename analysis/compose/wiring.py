@@ -133,7 +133,7 @@ class _Wirer:
     def join(self, source: End, target: End, entry: ListEntry) -> bool:
         """Connect two sides element by element; return False after recording a problem."""
         if not source.component and not target.component:
-            self.refuse(entry, "both ends are connectors of the system", "connect a connector of a component")
+            self.refuse(entry, "both ends are connectors of the system", "connect one end to a component")
             return False
         if not source.component:
             source = self.make_connector(source, target)
@@ -166,12 +166,14 @@ class _Wirer:
             self.refuse(entry, f"{names[0]} is {start.kind} and {names[1]} is {end.kind}", remedy)
             return False
         if start.type != end.type and (start.type, end.type) not in WIDENED:
-            problem = f"types do not fit: {start.type} and {end.type}"
-            self.refuse(entry, problem, "connect variables of one type")
+            problem = f"types differ: {names[0]} is {start.type}, but {names[1]} is {end.type}"
+            self.refuse(entry, problem, "connect variables of the same type")
             return False
         if start.unit and end.unit and not start.unit.is_convertible(end.unit):
-            problem = f"units do not convert: {names[0]} is in {start.unit.name}, {names[1]} in {end.unit.name}"
-            self.refuse(entry, problem, "connect variables of one quantity")
+            problem = (
+                f"units are not convertible: {names[0]} is in {start.unit.name}, but {names[1]} is in {end.unit.name}"
+            )
+            self.refuse(entry, problem, "connect variables of the same quantity")
             return False
         if target in self.wiring.sources:
             first = ".".join(filter(None, self.wiring.sources[target]))
@@ -203,7 +205,7 @@ class _Wirer:
         if end is None:
             return []
         if not end.component:
-            self.refuse(entry, "a connector of the system", "name a component's connector, COMPONENT.NAME")
+            self.refuse(entry, "is a connector of the system", "name a component's connector, COMPONENT.NAME")
             return []
         points = [(end.component, name) for name in end.names]
         remaining = [each for each in points if each not in self.wiring.connectors]
@@ -236,7 +238,7 @@ class _Wirer:
             return
         inputs = set(self.open_inputs(component))
         if not inputs:
-            self.refuse(entry, f"all inputs of {component} are connected or named", "remove this entry")
+            self.refuse(entry, f"all inputs of {component} are connected or listed already", "remove this entry")
         self.left |= {(component, name) for name in inputs}
 
     def open_inputs(self, component: str) -> list[str]:
@@ -262,7 +264,7 @@ class _Wirer:
                 similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, NEAR)
                 sources = [output for output in outputs if output.partition(".")[2] in similar]
                 nearest = f"connect it ({', '.join(sources)}?)" if sources else "connect it"
-                remedy = f"{nearest}, or name it under unconnected"
+                remedy = f"{nearest}, or list it under unconnected"
                 problem = f"input {component}.{name} is not connected"
                 self.problems.append(self.source.problem(where, problem, remedy))
 

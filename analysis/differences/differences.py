@@ -102,7 +102,9 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
     """
     rows = (first.time >= second.time[0]) & (first.time <= second.time[-1])
     if not rows.any():
-        raise InputError(second.file, "time", f"no time in common with {first.file}", "compare runs that overlap")
+        raise InputError(
+            second.file, "time", f"no time in common with {first.file}", "compare runs that overlap in time"
+        )
     common = [name for name in first.signals if name in second.signals]
     if not common:
         raise InputError(second.file, "", f"no signal in common with {first.file}", "compare runs of one system")

@@ -74,7 +74,7 @@ def read_run(path: Path) -> RecordedRun:
     is_good = np.isfinite(time) & np.append(True, np.diff(time) > 0.0)
     if not np.all(is_good):
         row = int(np.argmin(is_good))
-        fault = "is not above that of the preceding row" if np.isfinite(time[row]) else "is not finite"
+        fault = "does not exceed the time in the preceding row" if np.isfinite(time[row]) else "is not finite"
         raise InputError(path, TIME, f"the time in row {row + 1}, {time[row]:.12g}, {fault}", FORM)
     fields = [field for field in table.schema if field.name != TIME]
     units = {field.name: _unit(field) for field in fields} if is_parquet else about.get("units", {})

@@ -74,9 +74,9 @@ def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str)
     for related in manifest.files:
         if related.role == "result" and related.name not in used:
             if related.name is None:
-                notes.append(f"{related.source}: not a file of the archive: not compared")
+                notes.append(f"{related.source}: not compared, since the archive has no such file")
             elif related.type != CSV:
-                notes.append(f"{related.source}: {related.type} is not supported, only text/csv: not compared")
+                notes.append(f"{related.source}: not compared, since its type is {related.type} and not text/csv")
             else:
                 experiments.append(PlannedExperiment("default experiment", None, None, None, related.name))
     return Plan(tuple(experiments), tuple(notes))
@@ -100,18 +100,18 @@ def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment |
     name = element.get("name") or "experiment"
     kind = next((kind for kind in KINDS if element.find(kind) is not None), None)
     if kind is not None:
-        return f"{name}: an experiment of kind {kind}, not simulated"
+        return f"{name}: not simulated, since experiments of kind {kind} are not supported"
     sources: dict[str, str | None] = {}
     for tag, expected in TYPES.items():
         child = element.find(tag)
         source = None if child is None else child.get("source")
         if child is not None and child.get("type", expected) != expected:
-            return f"{name}: {tag} of type {child.get('type')} are not supported, only {expected}: not simulated"
+            return f"{name}: not simulated, since the type of its {tag} is {child.get('type')} and not {expected}"
         sources[tag] = None if source is None else file_of(source, posixpath.dirname(file))
         if source is not None and sources[tag] is None:
-            return f"{name}: {source} is not a file of the archive: not simulated"
+            return f"{name}: not simulated, since the archive has no file {source}"
     if sources["References"] is None:
-        return f"{name}: without References: nothing to compare"
+        return f"{name}: not simulated, since it has no References to compare with"
     transient = element.find(TRANSIENT)
     times = element if transient is None else transient
     start, stop, step = (_number(times, key, file, label) for key in TIMES)

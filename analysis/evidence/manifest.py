@@ -56,7 +56,7 @@ class Manifest:
 def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
     """Read the manifest among an archive's files. Raises InputError if there is none, or if it is not of FMI-LS-REF."""
     if MANIFEST not in files:
-        problem = f"holds no {MANIFEST}: nothing to verify"
+        problem = f"contains no {MANIFEST}, so there is nothing to verify"
         raise InputError(label, "evidence", problem, "export it with Perilune, or add reference trajectories")
     file = f"{label}!{MANIFEST}"
     root = parse_xml(files[MANIFEST], file)
@@ -80,7 +80,8 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
             flaws.append(f"{line}: role {element.get('role')!r} is not defined by the standard")
         if element.get("checksumType", CHECKSUM) not in ALGORITHMS:
             flaws.append(
-                f"{line}: checksumType {element.get('checksumType')!r} is not defined by the standard: not checked"
+                f"{line}: checksumType {element.get('checksumType')!r} is not defined by the standard; the "
+                "checksum was not checked"
             )
         related.append(_read_related(element))
     return Manifest(root, tuple(related), tuple(dict.fromkeys(flaws)))
@@ -112,7 +113,7 @@ def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, st
             if (name, algorithm) not in digests:
                 digests[name, algorithm] = hashlib.new(ALGORITHMS[algorithm], files[name]).hexdigest()
             if digests[name, algorithm] != related.checksum.strip().lower():
-                problems[name] = f"changed: its {algorithm} is not the manifest's"
+                problems[name] = f"changed: its {algorithm} checksum differs from the manifest"
     return problems
 
 

@@ -65,10 +65,14 @@ class Reproduction:
     @property
     def weaknesses(self) -> list[str]:
         """The reasons why the comparison is too weak to verify anything, one line each."""
-        few = f"a reference of {self.samples} samples, {FEWEST} verify; give one of more samples"
+        few = (
+            f"the reference has {self.samples} samples, but verification needs at least {FEWEST}; give a "
+            "longer reference"
+        )
         wide = [
-            f"{each.name} may differ by {each.tolerance:.3g} of its greatest magnitude, {WIDEST:g} verifies at most; "
-            "take a smaller tolerance"
+            f"{each.name} may differ by {each.tolerance:.3g} of its greatest magnitude, more than the permitted "
+            f"{WIDEST:g}; "
+            "give a smaller tolerance"
             for each in self.signals
             if each.tolerance > WIDEST
         ]
@@ -95,11 +99,11 @@ def reproduce(
     samples = int(np.unique(reference.time).size)
     reproduction = Reproduction(experiment.name, experiment.references, samples, (), not_compared=reference.texts)
     if experiment.start is not None and experiment.start != prepared.start:
-        problem = f"starts at {experiment.start:g} s, where the default experiment starts at {prepared.start:g} s"
+        problem = f"starts at {experiment.start:g} s, but the default experiment starts at {prepared.start:g} s"
         return replace(reproduction, problems=(f"{problem}: not simulated",))
     first, last = reference.time[[0, -1]]
     if first < prepared.start - time_margin(first):
-        problem = f"its reference starts at {first:g} s, the simulation at {prepared.start:g} s: not simulated"
+        problem = f"its reference starts at {first:g} s, but the simulation at {prepared.start:g} s: not simulated"
         return replace(reproduction, problems=(problem,))
     variables, problems = _variables(prepared, reference)
     if not variables:
@@ -110,7 +114,7 @@ def reproduce(
     if not flight.complete:
         problems.append(f"{flight.ending}: {flight.message}")
     elif flight.time[-1] < last - time_margin(last):
-        problems.append(f"ends at t = {flight.time[-1]:g} s, the reference at {last:g} s")
+        problems.append(f"ends at t = {flight.time[-1]:g} s, but the reference at {last:g} s")
     else:
         fraction = (0.0 if experiment.tolerances is not None else RELATIVE) if relative is None else relative
         references = {name: reference.signals[name] for name in variables}
@@ -139,7 +143,7 @@ def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[st
         if node is not None and node.component is None:
             variables[name] = name
         elif types.get(full, "String") == "String":
-            problem = "a String, which is not recorded" if full in types else "no such variable"
+            problem = "it is a String, and strings are not recorded" if full in types else "no such variable"
             problems.append(f"column {name}: {problem}")
         elif full not in network.driven:
             variables[name] = full

@@ -34,5 +34,5 @@ def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], 
         if name not in files:
             problems[name] = "missing, though SHA256SUMS lists it"
         elif hashlib.sha256(files[name]).hexdigest() != digest:
-            problems[name] = "changed: its SHA-256 differs from that in SHA256SUMS"
+            problems[name] = "changed: its SHA-256 differs from SHA256SUMS"
     return problems, [name for name in files if name not in listed and name not in NOT_LISTED]

@@ -72,9 +72,11 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
         if flight.complete:
             files[TRAJECTORY] = _table(flight, prepared)
             files[EXPERIMENT] = _experiment(prepared)
-            what = f"the system's outputs at {ROWS} communication points or less, all bits"
+            what = f"the system's outputs with all bits, at no more than {ROWS} communication points"
             related.append(Related(TRAJECTORY, "result", CSV, what))
-            related.append(Related(EXPERIMENT, "experiment/validation", EXPERIMENTS, "how to reproduce the trajectory"))
+            related.append(
+                Related(EXPERIMENT, "experiment/validation", EXPERIMENTS, "experiment that reproduces the trajectory")
+            )
         else:
             warnings.warn(f"no trajectory included: {flight.ending}: {flight.message}", stacklevel=5)
     for name in studies:
@@ -116,7 +118,9 @@ def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
 def _experiment(prepared: PreparedSystem) -> bytes:
     stop = prepared.start + prepared.steps * prepared.step
     exact = all(_is_exact(fmu) for fmu in prepared.network.fmus.values())
-    description = "the system as it stands, bit by bit" if exact else "the system as it stands"
+    description = "simulation of the unmodified system"
+    if exact:
+        description += ", to be reproduced bit by bit"
     times = (prepared.start, stop)
     source = PurePosixPath(TRAJECTORY).name
     experiment = Experiment("outputs", description, times, prepared.step, source, tolerances={} if exact else None)

@@ -34,7 +34,7 @@ class Trajectory:
         """
         for name in self.texts:
             if name not in without:
-                raise InputError(self.file, f"column {name}", "not numbers, which an input needs", "write numbers")
+                raise InputError(self.file, f"column {name}", "has values that are not numbers", "write numbers")
         columns = {name: samples for name, samples in self.signals.items() if name not in without}
         return InputSeries(self.file, self.sha256, self.time, columns)
 
@@ -58,7 +58,7 @@ def read_trajectory(content: bytes, file: str) -> Trajectory:
         else:
             signals[name] = numbers
     if TIME not in signals or not table.num_rows:
-        raise InputError(file, TIME, "no such column of numbers, or no samples", FORM)
+        raise InputError(file, TIME, "no such column, or a column without numbers", FORM)
     time = signals.pop(TIME)
     if not np.all(np.isfinite(time)) or np.any(np.diff(time) < 0.0):
         raise InputError(file, TIME, *_fault_of(time))

@@ -51,8 +51,8 @@ def verify_archive(
     problems = [f"{name}: {problem}" for name, problem in (check_listed(manifest, files) | changed).items()]
     plan = plan_experiments(manifest, files, archive.label)
     notes = [
-        *limit_lines([f"{name}: not in SHA256SUMS, added later" for name in added], NAMED, "files"),
-        *limit_lines([f"manifest: {flaw}" for flaw in manifest.flaws], NAMED, "flaws of the manifest"),
+        *limit_lines([f"{name}: not in SHA256SUMS, so it was added later" for name in added], NAMED, "files"),
+        *limit_lines([f"manifest: {flaw}" for flaw in manifest.flaws], NAMED, "flaws in the manifest"),
         *plan.notes,
     ]
     loaded: dict[str, Fmu] = {}
@@ -68,7 +68,7 @@ def verify_archive(
     studies, reproduced, differences = _repeat_studies(archive, manifest, files, options, timeout)
     problems += differences
     if not plan.experiments and not studies:
-        problems.append("holds no trajectory: nothing to reproduce")
+        problems.append("contains no trajectory, so there is nothing to reproduce")
     return Verification(archive.label, tuple(reproductions), studies, reproduced, tuple(problems), tuple(notes))
 
 

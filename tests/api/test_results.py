@@ -135,5 +135,5 @@ def test_plans(tmp_path):
     notebook = plan._repr_html_()
     assert "propellant fraction 0.049514" in html.fromstring(notebook).text_content()
     assert len(pictures(notebook)) == 1
-    with pytest.raises(perilune.InputError, match="do not exceed the gravity"):
+    with pytest.raises(perilune.InputError, match="does not exceed gravity"):
         perilune.plan_hover_transfer(vehicle=perilune.Vehicle(6000.0, 0.0, 300.0, 4707.0, 313.0, 0.01))

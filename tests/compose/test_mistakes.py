@@ -41,7 +41,7 @@ MISTAKES = {
         '"satellite.wheel_speeds -> wheels.wheel_speeds",',
         "",
         "components.wheels (line 27): input wheels.wheel_speeds is not connected; connect it "
-        "(satellite.wheel_speeds?), or name it under unconnected",
+        "(satellite.wheel_speeds?), or list it under unconnected",
     ),
     "unequal sizes": (
         ATTITUDE,
@@ -52,12 +52,12 @@ MISTAKES = {
     "types that do not fit": (
         COUNT,
         '"star.measured_quaternion[1] -> navigation.star_count"',
-        "types do not fit: Real and Integer; connect variables of one type",
+        "is Integer; connect variables of the same type",
     ),
     "units that do not convert": (
         TORQUE,
         f'{TORQUE}, "satellite.wheel_momentum -> wheels.torque_command"',
-        "units do not convert: satellite.wheel_momentum[1] is in N.m.s, wheels.torque_command[1] in N.m;",
+        "units are not convertible: satellite.wheel_momentum[1] is in N.m.s, but wheels.torque_command[1] is in N.m;",
     ),
     "an input with two sources": (
         COUNT,
@@ -100,22 +100,22 @@ MISTAKES = {
     "all inputs where none is left": (
         '"star.*"',
         '"star.*", "gyros.*"',
-        "unconnected (line 19): gyros.*: all inputs of gyros are connected or named; remove this entry",
+        "unconnected (line 19): gyros.*: all inputs of gyros are connected or listed already; remove this entry",
     ),
     "a parameter with a typo": (SET, SET.replace("initial", "inital"), "set.satellite.inital_quaternion: no parameter"),
-    "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4; give one value for each element"),
+    "a value of another size": (SET, SET.replace("0.99, ", ""), "3 values for 4 elements; give one value for each"),
     "a value of another type": (SET, SET.replace("0.99", "true"), "True is not of type Real; give a value of this"),
     "a value of no kind": (SET, SET.replace("0.99", '"x"'), "'x' is neither a number nor true or false"),
     "rows of another matrix": (
         SET,
         f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]',
-        "set.satellite.wheel_axes: not 4 rows of 3; give one number for each element, row by row",
+        "set.satellite.wheel_axes: not 4 rows of 3 values; give one value for each element, row by row",
     ),
     "rows of a vector": (SET, SET.replace("0.99, 0.1, 0, 0.1", "[0.99, 0.1], [0, 0.1]"), "parameter is not a matrix"),
     "rows and numbers": (
         SET,
         f'{SET}\n"satellite.wheel_axes" = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], 2]',
-        "not 4 rows of 3",
+        "not 4 rows of 3 values",
     ),
     "a step that is none": ("step = 0.125", "step = 0", "step: 0 is not a positive number of seconds; give more"),
     "a step that its FMUs refuse": ("step = 0.125", "step = 0.3", "are not a whole number of steps of 0.3 s"),

@@ -73,7 +73,7 @@ def test_an_edited_file_is_not_written_over(here, refusal):
         ssd.write_text(text, encoding="utf-8")
         assert "and is not overwritten" in refusal(["compose", SHORT])
         assert ssd.read_text(encoding="utf-8") == text
-    assert "exists already" in refusal(["compose", NAME, "--output", SHORT])
+    assert "already exists" in refusal(["compose", NAME, "--output", SHORT])
 
 
 def test_an_edited_folder_is_not_written_over(here):

@@ -64,7 +64,12 @@ def test_missing_and_infinite_numbers_are_numbers(tmp_path):
         ("empty.csv", "", "", "cannot be read as a table"),
         ("page.parquet", "<html>", "", "cannot be read as a table"),
         ("still.csv", "t,h\n0,1\n", "time", "no such column"),
-        ("back.csv", "time,h\n1,1\n0,1\n", "time", "the time in row 2, 0, is not above that of the preceding row"),
+        (
+            "back.csv",
+            "time,h\n1,1\n0,1\n",
+            "time",
+            "the time in row 2, 0, does not exceed the time in the preceding row",
+        ),
         ("head.csv", "time,h\n", "time", "no samples"),
         ("twice.csv", "time,h,h\n0,1,2\n", "h", "there are two columns of this name"),
         ("words.csv", "time,h\n0,high\n", "h", "not a column of numbers"),

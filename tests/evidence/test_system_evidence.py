@@ -91,7 +91,7 @@ def test_what_is_changed_is_named(exported, tmp_path, capsys):
     name = f"{FOLDER}/reports/few.json"
     report = files[name].replace(b'"success_rate": 1.0', b'"success_rate": 0.5', 1)
     lines = refused(tmp_path, files | {name: report}, capsys)
-    assert f"{name}: changed: its SHA3-256 is not the manifest's" in lines
+    assert f"{name}: changed: its SHA3-256 checksum differs from the manifest" in lines
     assert "few: .variants.analytic_guidance.success_rate: 0.5 in the report, 1.0 now" in lines
     ssd = files["SystemStructure.ssd"].replace(b'stopTime="400"', b'stopTime="100"')
     assert ssd != files["SystemStructure.ssd"]
@@ -152,7 +152,7 @@ def test_a_system_that_cannot_be_simulated_as_it_stands(tiny_folder, tmp_path, m
     with pytest.warns(UserWarning, match="no trajectory included: .*stopTime: missing"):
         perilune.export(folder, output=tmp_path / "open.ssp")
     (verified,) = perilune.verify(tmp_path / "open.ssp")
-    assert verified.problems == ("holds no trajectory: nothing to reproduce",)
+    assert verified.problems == ("contains no trajectory, so there is nothing to reproduce",)
 
 
 def test_timeout_is_of_repeated_campaigns_too(exported):

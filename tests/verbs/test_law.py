@@ -92,7 +92,7 @@ def test_json(tmp_path, capsys):
         (["diveev_2013", "--component", "plant"], "--component: plant: without effect unless --output is given"),
         (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not the name of a component"),
         (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not the name of a component"),
-        (["bad.json", "--output", "law.ssv", "--graph", "law.svg"], "bad.json: matrix[8,3]: 5 below the diagonal"),
+        (["bad.json", "--output", "law.ssv", "--graph", "law.svg"], "bad.json: matrix[8,3]: 5 is below the diagonal"),
     ],
 )
 def test_wrong_input(tmp_path, monkeypatch, capsys, arguments, words):

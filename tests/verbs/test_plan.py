@@ -152,10 +152,13 @@ def test_no_programme(capsys):
         (["transfer", "--free-fall", "--turn-begun", "1"], "--turn-begun: 1: above 0.9"),
         (["transfer", "--free-fall", "--distances", "50,-1"], "--distances: -1: below 0"),
         (["transfer", "--free-fall", "--distance", "0"], "--free-fall: a vertical descent, over 0 m, has no turn"),
-        (["transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 at full thrust do not exceed"),
+        (
+            ["transfer", "--maximum-thrust", "900"],
+            "--maximum-thrust: 900 N: the acceleration at full thrust, 1.5 m/s2, does not exceed",
+        ),
         (
             ["transfer", "--minimum-thrust", "1000"],
-            "--minimum-thrust: 1000 N: 1.667 m/s2 at this thrust exceed gravity",
+            "--minimum-thrust: 1000 N: the acceleration at this thrust, 1.667 m/s2, exceeds gravity",
         ),
         (["transfer", "--minimum-thrust", "5000"], "--minimum-thrust: 5000: not below the largest thrust"),
         (["transfer", "--minimum-thrust", "0"], "--minimum-thrust: 0 N: the programme never shuts the engine down"),

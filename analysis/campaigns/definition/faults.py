@@ -60,9 +60,7 @@ def read_fault(name: str, table: TomlTable) -> CampaignFault:
     table.only(KEYS)
     kind = table.get("kind", choice_of(*KINDS))
     if kind == "freeze" and "value" in table.content:
-        raise table.error(
-            "value", "a freeze has no value", "omit the value: a freeze keeps the signal at its current value"
-        )
+        raise table.error("value", "a freeze has no value", "omit the value: a freeze holds the current value")
     return CampaignFault(
         name=name,
         file=table.file,

@@ -65,8 +65,8 @@ def place_derivative(
     sizes = np.linalg.svd(state, compute_uv=False)
     if not sizes[-1] > TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
-        problem = f"A is singular: its singular values go down to {ratio:.2g} of the largest"
-        remedy = "use state feedback, or remove the states that are constant at rest"
+        problem = f"A is singular: its smallest singular value is {ratio:.2g} times the largest"
+        remedy = "use state feedback, or remove the modes of A at s = 0"
         raise PlacementError("derivative feedback", Reason.SINGULAR, problem, ratio, remedy)
     back = np.linalg.inv(state)
     dual = place(back, back @ inputs, 1.0 / spectrum.poles, **options)

@@ -58,7 +58,9 @@ def place_integral(
     sizes = np.linalg.svd(at_rest, compute_uv=False)
     if states + count > at_rest.shape[1] or sizes[-1] <= TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if states + count <= at_rest.shape[1] else 0.0
-        problem = f"the plant has a zero at s = 0: [A B; C 0] has singular values down to {ratio:.2g} of the largest"
+        problem = (
+            f"the plant has a zero at s = 0: the smallest singular value of [A B; C 0] is {ratio:.2g} times the largest"
+        )
         remedy = "integrate no more outputs than there are inputs, and only outputs that constant inputs can change"
         raise PlacementError("integral feedback", Reason.RANK, problem, ratio, remedy)
     whole = np.block([[state, np.zeros((states, count))], [outputs, carried]])

@@ -99,7 +99,7 @@ def output_feedback_upper(
         raise InputError("modal", "starts", f"{starts} starts", "give 1 or more")
     n, m, p = len(state), inputs.shape[1], len(outputs)
     if m * p < n:
-        problem = f"n, m, p = {n}, {m}, {p}: F has m p = {m * p} elements, too few for n poles"
+        problem = f"F has m p = {m} x {p} = {m * p} elements, too few to place n = {n} poles"
         raise PlacementError(ROUTINE, Reason.CLASS, problem, float(m * p), "measure more outputs, or use an observer")
     if m == n or p == n:
         raise InputError(
@@ -124,8 +124,8 @@ def _distribute(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> tuple
     split = next(spectrum.splits(size), None)
     if split is not None:
         return split
-    problem = f"{len(spectrum.pairs)} conjugate pairs do not leave {size} poles for the upper levels"
-    remedy = "give (A', C', B') and transpose F, or two real poles in place of a pair"
+    problem = f"the upper levels need {size} poles, which would split one of {len(spectrum.pairs)} conjugate pairs"
+    remedy = "solve for (A', C', B') and transpose F, or replace a pair by two real poles"
     raise PlacementError(ROUTINE, Reason.SPREAD, problem, float(len(spectrum.pairs)), remedy)
 
 
@@ -166,6 +166,9 @@ def _solve(family: UpperLevels, lower: Spectrum, draws: Iterator[np.ndarray], st
         placed = polish(replace(feedback, method=ROUTINE, levels=first.levels), level.a, level.b, level.c)
         if placed.error <= _PLACED * placed.kappa * float(np.linalg.norm(placed.closed_loop, 2)):
             return placed
-    problem = f"the best of {starts} starts has a residual {nearest:.2g} of the equations of the zeroth level"
-    remedy = "give more starts, name other upper poles, or measure more outputs"
+    problem = (
+        f"the iteration did not converge: after the best of {starts} starts, the residual of the zeroth "
+        f"level's equations is {nearest:.2g}"
+    )
+    remedy = "give more starts, choose other upper poles, or measure more outputs"
     raise PlacementError(ROUTINE, Reason.RESIDUAL, problem, nearest, remedy)

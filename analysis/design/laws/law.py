@@ -105,7 +105,7 @@ def law_of(document: object, file: str) -> NetworkOperator:
     for key in ("name", "description"):
         if not isinstance(document[key], str) or not document[key].isprintable():
             refuse(
-                key, f"{document[key]!r} is not a text on one line", "write it in quotes, without control characters"
+                key, f"{document[key]!r} is not a single line of text", "write it in quotes, without control characters"
             )
     if not document["name"].strip():
         refuse("name", "empty", "give the law a name")
@@ -123,11 +123,13 @@ def law_of(document: object, file: str) -> NetworkOperator:
 def _matrix(rows: object, file: str) -> Matrix:
     if not isinstance(rows, list) or len(rows) != SIZE:
         actual = f"{len(rows)} row(s)" if isinstance(rows, list) else f"{rows!r}"
-        raise InputError(file, "matrix", f"{actual} where {SIZE} are needed", f"give {SIZE} rows of {SIZE} integers")
+        raise InputError(
+            file, "matrix", f"{actual}, but {SIZE} rows are needed", f"give {SIZE} rows of {SIZE} integers"
+        )
     for row, entries in enumerate(rows, 1):
         if not isinstance(entries, list) or len(entries) != SIZE:
             actual = f"{len(entries)} entries" if isinstance(entries, list) else f"{entries!r}"
-            problem = f"row {row} has {actual} where {SIZE} are needed"
+            problem = f"row {row} has {actual}, but {SIZE} are needed"
             raise InputError(file, "matrix", problem, f"give {SIZE} rows of {SIZE} integers")
         for column, entry in enumerate(entries, 1):
             wrong = _find_problem(row, column, entry)
@@ -141,7 +143,7 @@ def _find_problem(row: int, column: int, entry: object) -> tuple[str, str] | Non
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"
     if row > column:
-        return (f"{entry} below the diagonal", "write 0: the matrix is upper triangular") if entry else None
+        return (f"{entry} is below the diagonal", "write 0: the matrix is upper triangular") if entry else None
     if row == column:
         known = ", ".join(map(str, BINARY_OPERATIONS))
         return None if entry in BINARY_OPERATIONS else (f"{entry} is not a binary operation", f"use one of {known}")

@@ -114,14 +114,17 @@ def orbit(
                 f"`{name}`", repr(number), "not a finite number", "give a number in SI units, angles in rad"
             )
     if not mu > 0.0:
-        raise InputError("`mu`", repr(mu), "not above 0", "give the body's gravitational parameter in m3/s2")
+        raise InputError("`mu`", repr(mu), "not positive", "give the body's gravitational parameter in m3/s2")
     if eccentricity < 0.0 or eccentricity == 1.0:
         raise InputError(
-            "`eccentricity`", repr(eccentricity), "neither an ellipse nor a hyperbola", "give 0 to below 1, or above 1"
+            "`eccentricity`",
+            repr(eccentricity),
+            "neither an ellipse nor a hyperbola",
+            "give a value from 0 to below 1 (ellipse) or above 1 (hyperbola)",
         )
     parameter = semi_major_axis * (1.0 - eccentricity) * (1.0 + eccentricity)  # semi-latus rectum
     if not parameter > 0.0:
-        sign = "above 0, as an ellipse needs" if eccentricity < 1.0 else "below 0, as a hyperbola needs"
+        sign = "positive, as an ellipse requires" if eccentricity < 1.0 else "negative, as a hyperbola requires"
         raise InputError(
             "`semi_major_axis`", repr(semi_major_axis), f"not {sign}", "change `semi_major_axis` or `eccentricity`"
         )

@@ -60,12 +60,14 @@ def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
     """
     states, inputs = b.shape
     if states % inputs:
-        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not a whole number"
+        problem = f"the number of states, {states}, is not a multiple of the number of inputs, {inputs}"
         raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "use method indices or multilevel")
     matrix = controllability_matrix(a, b, states // inputs)
     condition = float(np.linalg.cond(matrix))
     if not condition < 1.0 / (states * np.finfo(float).eps):
-        problem = f"U = [B AB ..] of {states} columns is singular, cond(U) = {condition:.2g}"
+        problem = (
+            f"the controllability matrix U = [B AB ..] is singular to working precision, cond(U) = {condition:.2g}"
+        )
         remedy = "use method indices or multilevel, which report whether the plant is controllable"
         raise PlacementError(formula, Reason.CLASS, problem, condition, remedy)
     return np.linalg.solve(matrix.T, np.eye(states, inputs, inputs - states)).T, condition

@@ -56,7 +56,8 @@ def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOL
     if basis.shape[1] < states:
         problem = (
             f"{states - basis.shape[1]} of {states} states are not controllable: "
-            f"vectors left out add at most {left_out:.2g} to the others, less than {tolerance:g}"
+            f"no further vector A^k b_i is independent of the others by more than {left_out:.2g} (tolerance "
+            f"{tolerance:g})"
         )
         remedy = "remove these states, or add an input"
         raise PlacementError("controllability indices", Reason.NOT_CONTROLLABLE, problem, left_out, remedy)

@@ -168,7 +168,7 @@ def family_of(
     rank = levels[0].rank
     maximum = max(np.unique(spectrum.poles, return_counts=True)[1])
     if maximum > rank:
-        problem = f"a pole is required {maximum} times and B has rank {rank}: no full set of eigenvectors exists"
+        problem = f"a pole occurs {maximum} times, but B has rank {rank}: a full set of eigenvectors does not exist"
         raise PlacementError("free eigenvectors", Reason.RANK, problem, float(maximum), "use choice diagonal")
     return levels, Eigenvectors(levels[0], spectrum)
 

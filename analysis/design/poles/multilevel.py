@@ -122,7 +122,10 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     parts = spectrum.split_by_speed([level.rank for level in levels])
     if parts is None:
         ranks = ", ".join(str(level.rank) for level in levels)
-        problem = f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank {ranks}"
+        problem = (
+            f"{len(spectrum.pairs)} conjugate pairs cannot be distributed over levels of ranks {ranks} "
+            "without splitting a pair"
+        )
         remedy = "use method indices, or choice least_condition or least_norm"
         raise PlacementError("multilevel placement", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return place_on_levels(levels, [part.matrix for part in parts], spectrum.poles)
@@ -133,9 +136,9 @@ def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> N
     outside = float(np.linalg.norm(b[rank:], 2) / np.linalg.norm(b, 2)) if len(b) > rank else 0.0
     if size == rank and outside <= _OUTSIDE:
         return
-    says = f"has {size} states where the rank is {rank}"
+    says = f"has {size} columns, but the level has rank {rank}"
     if size == rank:
-        says = f"leaves out {outside:.2g} of the states that drive it"
+        says = f"does not span the directions that the inputs drive: a fraction {outside:.2g} of B's 2-norm is outside"
     problem = f"the basis of level {level} {says}"
     remedy = "give a basis of the states that B drives, then of the states that these drive, and so on"
     raise PlacementError("multilevel placement", Reason.RANK, problem, float(size) if size != rank else outside, remedy)
@@ -144,8 +147,9 @@ def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> N
 def _unreachable(level: int, states: int, values: np.ndarray, scale: float, tolerance: float) -> PlacementError:
     largest = float(values[0]) if len(values) else 0.0
     problem = (
-        f"{states} states are left on level {level}, where the largest singular value left out is {largest:.2g}, "
-        f"no more than {tolerance:g} of {scale:.2g}"
+        f"{states} states are not controllable: on level {level} the largest singular value of the input matrix "
+        f"is {largest:.2g}, "
+        f"not above {tolerance:g} x {scale:.2g}"
     )
     remedy = "remove these states, or add an input"
     return PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, largest, remedy)

@@ -48,7 +48,7 @@ def reduced_observer(
     if len(outputs) > len(state) or sizes[-1] <= TOLERANCE * sizes[0]:
         ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
         shape = f"C, {len(outputs)} by {len(state)}"
-        problem = f"{shape}, is rank deficient: its smallest singular value is {ratio:.2g} of the largest"
+        problem = f"{shape}, is rank deficient: its smallest singular value is {ratio:.2g} times the largest"
         remedy = "remove outputs that depend linearly on others"
         raise PlacementError("reduced observer", Reason.RANK, problem, ratio, remedy)
     if len(outputs) == len(state):
@@ -81,7 +81,7 @@ def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: PlaceOptions)
         raise PlacementError(
             "observer",
             Reason.NOT_OBSERVABLE,
-            f"of (A', C') {error.problem}",
+            f"the plant is not observable; of its dual (A', C'), {error.problem}",
             error.number,
-            "measure these states as well",
+            "measure further states",
         ) from None

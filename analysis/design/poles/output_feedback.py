@@ -76,9 +76,10 @@ def output_feedback(
         raise refusals[-1]
     if not tried:
         problem = (
-            f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels"
+            f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles cannot be distributed "
+            "over the levels without splitting a pair"
         )
-        remedy = "use the other method, or two real poles in place of a pair"
+        remedy = "use the other method, or replace a pair by two real poles"
         raise PlacementError("output feedback", Reason.SPREAD, problem, len(spectrum.pairs), remedy)
     return minimise_gain(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
@@ -115,10 +116,10 @@ def _placements(
 
 
 def _check_class(states: int, inputs: int, outputs: int) -> None:
-    sizes = f"n, m, p = {states}, {inputs}, {outputs}"
+    sizes = f"n = {states} states, m = {inputs} inputs, p = {outputs} outputs"
     for number, problem in (
-        (inputs + outputs, f"m + p = {inputs + outputs} is less than n"),
-        (inputs * outputs, f"F has m p = {inputs * outputs} elements, too few for n poles"),
+        (inputs + outputs, f"m + p = {inputs + outputs} must not be less than n"),
+        (inputs * outputs, f"F has m p = {inputs * outputs} elements, too few to place n poles"),
     ):
         if number < states:
             remedy = "measure more outputs, or use an observer"

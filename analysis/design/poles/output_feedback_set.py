@@ -87,7 +87,7 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
     hidden = null_space(outputs)
     if hidden.shape[1] != len(state) - len(outputs):
         rank = len(state) - hidden.shape[1]
-        problem = f"C of {len(outputs)} rows has rank {rank}"
+        problem = f"C has {len(outputs)} rows, but rank {rank}"
         remedy = "remove outputs that depend linearly on others"
         raise PlacementError("set of output feedbacks", Reason.RANK, problem, rank, remedy)
     # [N] V C^perp = -T A^p C^perp, each row of [N] separately
@@ -137,8 +137,8 @@ def common_feedback(
         ) from None
     if any(len(state) != order for state in states) or order % size:
         sizes = ", ".join(str(len(state)) for state in states)
-        remedy = "give matrices of one size n by n, n a multiple of the number of inputs"
-        raise InputError("modal", "plants", f"sizes {sizes} for {size} inputs", remedy)
+        remedy = "give n by n matrices of equal size, where n is a multiple of the number of inputs"
+        raise InputError("modal", "plants", f"the plants have {sizes} states and {size} inputs", remedy)
     if prescribed.shape != (order // size, size, size):
         raise InputError(
             "modal", "wanted", f"has shape {prescribed.shape}", f"give shape {(order // size, size, size)}"

@@ -136,7 +136,12 @@ def place_levels(
         )
     if len(matrices) != len(levels):
         ranks = ", ".join(str(level.rank) for level in levels)
-        raise InputError("modal", "matrices", f"{len(matrices)} matrices", f"give one for each level, of sizes {ranks}")
+        raise InputError(
+            "modal",
+            "matrices",
+            f"{len(matrices)} matrices",
+            f"give one square matrix for each level, of orders {ranks}",
+        )
     sizes = [(level.rank, level.rank) for level in levels]
     desired = [
         real_matrix(f"matrices[{i}]", phi, size) for i, (phi, size) in enumerate(zip(matrices, sizes, strict=True))
@@ -172,7 +177,7 @@ def _above(tolerance: float | None) -> float:
     if tolerance is None:
         return TOLERANCE
     if not 0.0 < tolerance < 1.0:
-        raise InputError("modal", "tolerance", f"{tolerance:g}", "give a number between 0 and 1")
+        raise InputError("modal", "tolerance", f"{tolerance:g} is not between 0 and 1", "give a number in between")
     return tolerance
 
 

@@ -22,7 +22,7 @@ def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """Return B (n, m). Raises InputError."""
     matrix = real_matrix("B", value)
     if matrix.shape[0] != states or not matrix.size:
-        raise InputError("modal", "B", f"is {_size(matrix)}, and A has {states} states", "give one row per state")
+        raise InputError("modal", "B", f"is {_size(matrix)}, but A has {states} states", "give one row per state")
     return matrix
 
 
@@ -30,7 +30,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """Return C (p, n). Raises InputError."""
     matrix = real_matrix("C", value)
     if matrix.shape[1] != states or not matrix.size:
-        raise InputError("modal", "C", f"is {_size(matrix)} where A has {states} states", "give one column per state")
+        raise InputError("modal", "C", f"is {_size(matrix)}, but A has {states} states", "give one column per state")
     return matrix
 
 
@@ -39,7 +39,7 @@ def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[
     try:
         matrix = np.asarray(value)
     except ValueError:  # rows of different lengths
-        raise InputError("modal", name, "has rows of different length", "give a matrix") from None
+        raise InputError("modal", name, "has rows of different lengths", "give rows of equal length") from None
     if matrix.dtype.kind not in "biuf":
         raise InputError("modal", name, f"has elements of type {matrix.dtype}", "give real numbers")
     if shape is None and matrix.ndim != 2:

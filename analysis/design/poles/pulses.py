@@ -112,5 +112,7 @@ def pulse_lengths(lengths: ArrayLike, shape: tuple[int, ...], period: float) -> 
     pulses = real_matrix("lengths", lengths, shape)
     outside = pulses[(pulses < 0.0) | (pulses > period)]
     if outside.size:
-        raise InputError("modal", "lengths", f"a pulse of {outside[0]:g} s", f"give 0 to {period:g} s, the tick")
+        raise InputError(
+            "modal", "lengths", f"a pulse lasts {outside[0]:g} s", f"give 0 to {period:g} s, the tick period"
+        )
     return pulses

@@ -55,7 +55,11 @@ def minimise_gain(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndar
     apart = np.abs(desired[:, None] - desired[None, :]) + np.diag(np.full(len(desired), np.inf))
     if not np.min(apart) > 0.0:
         raise PlacementError(
-            "output feedback", Reason.RANK, "repeated poles have no derivative", 0.0, "use choice least_norm"
+            "output feedback",
+            Reason.RANK,
+            "the search for the smallest gain needs distinct poles",
+            0.0,
+            "use choice least_norm",
         )
     starts = sorted(feedbacks, key=lambda one: one.norm)[:_STARTS]
     return min((_search_from(start, a, b, c) for start in starts), key=lambda one: one.norm)

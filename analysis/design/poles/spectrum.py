@@ -34,7 +34,7 @@ class Spectrum:
                 "modal",
                 name,
                 f"{len(values)} poles",
-                f"give {size}, with each repeated pole listed as often as it occurs",
+                f"give {size} poles, with each repeated pole listed as often as it occurs",
             )
         conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []

@@ -50,7 +50,9 @@ class ZerothLevel:
             sizes = np.linalg.svd(matrix, compute_uv=False)
             if len(sizes) < rank or sizes[-1] <= TOLERANCE * sizes[0]:
                 ratio = float(sizes[-1] / sizes[0]) if len(sizes) == rank and sizes[0] else 0.0
-                problem = f"{name} does not have full rank: its singular values go down to {ratio:.2g} of the largest"
+                problem = (
+                    f"{name} does not have full rank: its smallest singular value is {ratio:.2g} times the largest"
+                )
                 remedy = "remove inputs or outputs that depend linearly on others"
                 raise PlacementError("output feedback", Reason.RANK, problem, ratio, remedy)
         self.a, self.b, self.c = a, b, c
@@ -103,7 +105,7 @@ def place_zeroth_level(
     except PlacementError as error:
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise
-        problem = f"(Y X^+, Q) is not observable: in its dual, {error.problem}"
+        problem = f"the zeroth level (Y X^+, Q) is not observable; of its dual, {error.problem}"
         remedy = "distribute the poles over the levels in another way"
         raise PlacementError("output feedback", Reason.NOT_OBSERVABLE, problem, error.number, remedy) from None
     feedback = level.feedback(inverse, own + z @ q, upper, lower, condition)
@@ -114,7 +116,7 @@ def condition_of(x: np.ndarray) -> float:
     """Return cond X; 1 without columns. Raises PlacementError if X does not have full column rank."""
     condition = float(np.linalg.cond(x)) if x.size else 1.0
     if not condition < 1.0 / TOLERANCE:
-        problem = f"X does not have full column rank, cond X = {condition:.2g}"
+        problem = f"X does not have full column rank, cond(X) = {condition:.2g}"
         raise PlacementError(
             "output feedback", Reason.RANK, problem, condition, "distribute the poles over the levels in another way"
         )
@@ -142,8 +144,8 @@ def output_feedback_levels(
             np.abs(checked.T @ checked - np.eye(size)).max(), np.abs(checked.T @ inputs).max() / np.abs(inputs).max()
         )
         if off > _ORTHONORMAL:
-            problem = f"its columns are not orthonormal with basis' B = 0, by {off:.2g}"
-            raise InputError("modal", "basis", problem, "use columns of the null space of B'")
+            problem = f"not an orthonormal basis of the null space of B': the largest error is {off:.2g}"
+            raise InputError("modal", "basis", problem, "use orthonormal columns, such as scipy.linalg.null_space(B.T)")
     level = ZerothLevel(state, inputs, outputs, checked)
     desired = real_matrix("upper", upper, (size, size))
     first = place_levels(*level.above, [desired], bases=[np.eye(size)])
@@ -175,6 +177,9 @@ def place_square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: i
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
             return polish(placed, level.a, level.b, level.c)
-    problem = f"m + p = n, and the best of {starts} starts has a residual {minimum:.2g} of the polynomial"
-    remedy = "give more starts, distribute the poles over the levels in another way, or measure more"
+    problem = (
+        f"the iteration did not converge (m + p = n): after the best of {starts} starts, the residual of "
+        f"the characteristic polynomial is {minimum:.2g}"
+    )
+    remedy = "give more starts, distribute the poles over the levels in another way, or measure more outputs"
     raise PlacementError("output feedback", Reason.RESIDUAL, problem, minimum, remedy)

@@ -13,13 +13,13 @@ def last_symbol_rows(a: Symbols, b: Symbols, formula: str) -> Symbols:
     sp = sympy()
     states, inputs = b.shape
     if states % inputs:
-        problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not a whole number"
+        problem = f"the number of states, {states}, is not a multiple of the number of inputs, {inputs}"
         raise PlacementError(formula, Reason.CLASS, problem, states / inputs, "use method multilevel")
     columns = sp.Matrix.hstack(*(row.T for row in powers(a.T, b.T, states // inputs - 1)))
     inverse = inverse_of(columns)
     if inverse is None:
         rank = columns.rank(iszerofunc=is_zero)
-        problem = f"U = [B AB ..] has rank {rank} for {states} states"
+        problem = f"the controllability matrix U = [B AB ..] has rank {rank}, but the plant has {states} states"
         remedy = "use method multilevel, which reports whether the plant is controllable"
         raise PlacementError(formula, Reason.CLASS, problem, float(rank), remedy)
     return inverse[states - inputs :, :]

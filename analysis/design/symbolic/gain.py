@@ -158,7 +158,7 @@ def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | 
         return None
     if len(required) != len(sizes):
         text = ", ".join(map(str, sizes))
-        raise InputError("modal", "required", f"{len(required)} matrices", f"give matrices of sizes {text}")
+        raise InputError("modal", "required", f"{len(required)} matrices", f"give square matrices of orders {text}")
     return [
         matrix_of(f"required[{i}]", matrix, (size, size))
         for i, (matrix, size) in enumerate(zip(required, sizes, strict=True))
@@ -172,10 +172,10 @@ def _poles(required: Sequence[Any], states: int) -> list[Expression]:
             "modal",
             "required",
             f"{len(poles)} poles",
-            f"give {states}, with each repeated pole listed as often as it occurs",
+            f"give {states} poles, with each repeated pole listed as often as it occurs",
         )
     if any(pole.is_real is False for pole in poles):
-        remedy = "give matrices, [[a, b], [-b, a]] for a pair a +- i b"
+        remedy = "give real matrices, [[a, b], [-b, a]] for a pair a +- i b"
         raise InputError("modal", "required", "a pole is not real", remedy)
     return poles
 

@@ -19,9 +19,11 @@ def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
     arguments = sorted(str(symbol) for symbol in matrix.free_symbols)
     for each in (name, *arguments):
         if not each.isidentifier() or keyword.iskeyword(each):
-            raise InputError("modal", f"the name {each!r}", "not a name in Python", "use letters, digits and _")
+            raise InputError("modal", f"the name {each!r}", "not a Python identifier", "use letters, digits and _")
         if each in _RESERVED:
-            raise InputError("modal", f"the name {each!r}", "the function uses this name already", "rename the symbol")
+            raise InputError(
+                "modal", f"the name {each!r}", "the generated function already uses this name", "rename the symbol"
+            )
     names = {name, *arguments}
     numbers = (symbol for symbol in sp.numbered_symbols("part_") if str(symbol) not in names)
     terms, (reduced,) = sp.cse([matrix], symbols=numbers, optimizations="basic")
@@ -77,7 +79,7 @@ def _power(printer: Any, power: Expression, rational: bool = False) -> str:
     base, exponent = power.args
     if not (2 * exponent).is_Integer:
         raise InputError(
-            "modal", "kernel", f"{power} is a power that kernels do not have", "replace this power by a symbol"
+            "modal", "kernel", f"kernels do not support the power {power}", "replace this power by a symbol"
         )
     whole, half = divmod(int(2 * abs(exponent)), 2)
     printed = printer.doprint(base)
@@ -90,6 +92,6 @@ def _function(printer: Any, call: Expression) -> str:
     function = type(call).__name__
     if function not in _FUNCTIONS:
         raise InputError(
-            "modal", "kernel", f"{function} is a function that kernels do not have", "replace this function by a symbol"
+            "modal", "kernel", f"kernels do not support the function {function}", "replace this function by a symbol"
         )
     return f"{function}({printer.doprint(call.args[0])})"

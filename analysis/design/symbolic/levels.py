@@ -38,7 +38,7 @@ def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) 
         basis = b[:, list(b.rref(iszerofunc=is_zero)[1])]
         rank = basis.cols
         if not rank:
-            problem = f"{states} states are left on level {len(levels)}, which nothing drives"
+            problem = f"{states} states are not controllable: no input drives level {len(levels)}"
             remedy = "remove these states, or add an input"
             raise PlacementError("multilevel placement", Reason.NOT_CONTROLLABLE, problem, 0.0, remedy)
         if sizes is None:
@@ -46,7 +46,7 @@ def symbolic_levels(a: Symbols, b: Symbols, sizes: Sequence[int] | None = None) 
             down = sp.Matrix([list(row) for row in left.T.nullspace(iszerofunc=is_zero)])
         else:
             if len(levels) >= len(sizes) or sizes[len(levels)] != rank or not b[rank:, :].is_zero_matrix:
-                problem = f"the basis of level {len(levels)} does not span the states that drive it, of rank {rank}"
+                problem = f"the basis of level {len(levels)} does not span the {rank} directions that the inputs drive"
                 remedy = "give a basis of the states that B drives, then of the states that these drive, and so on"
                 raise PlacementError("multilevel placement", Reason.RANK, problem, float(rank), remedy)
             left, down = sp.eye(states)[:, :rank], sp.eye(states)[rank:, :]

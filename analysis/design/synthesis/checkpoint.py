@@ -32,7 +32,7 @@ def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
-            raise InputError(path, "format", "not a checkpoint of this version", REMEDY)
+            raise InputError(path, "format", "not a checkpoint that this version can read", REMEDY)
         stored = document["facts"]
         for name, value in facts.items():
             if name not in stored or stored[name] != json.loads(json.dumps(value)):

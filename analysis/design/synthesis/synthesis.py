@@ -99,7 +99,7 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
     path = output / CHECKPOINT
     if path.exists() and not resume:
         raise InputError(
-            path, "", "the folder already holds a search", "give `resume` to continue it, or another `output`"
+            path, "", "the folder already contains a search", "give `resume` to continue it, or another `output`"
         )
     return path
 

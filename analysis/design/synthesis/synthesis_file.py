@@ -134,7 +134,7 @@ def _settings(table: TomlTable) -> SearchSettings:
             raise table.error(name, f"{values[name]!r} is out of range", f"give {low:g} to {high:g}")
     if settings.elites >= settings.population:
         problem = f"{settings.elites} elites fill the population of {settings.population}"
-        raise table.error("elites", problem, "leave room for at least one new candidate")
+        raise table.error("elites", problem, "give fewer elites, or a larger population")
     if settings.coding.bits == 0:
         raise table.error(
             "fraction_bits", "integer_bits and fraction_bits are both 0", "give at least one bit to one of them"

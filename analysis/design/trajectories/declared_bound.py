@@ -106,12 +106,14 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
     arm = np.add(inputs["position"], (0.0, 0.0, values["moon_radius"]))
     away, distance = math.hypot(arm[0], arm[1]), float(np.linalg.norm(arm))
     if not away > 0.0:
-        raise InputError(file, "bound", "braking starts straight above the site", "start at a distance from the site")
+        raise InputError(
+            file, "bound", "braking starts vertically above the site", "start at a horizontal distance from the site"
+        )
     up, aside = arm / distance, np.array([-arm[1], arm[0], 0.0]) / away
     velocity = np.array(inputs["velocity"])
     towards = float(velocity @ np.cross(up, aside))
     if not (abs(velocity @ aside) <= ACROSS and towards > 0.0):
-        problem = "the velocity at the start of braking is not towards the site"
+        problem = "the velocity at the start of braking does not point towards the site"
         raise InputError(file, "bound", problem, "give a velocity in the plane of start and site")
     vehicle = Vehicle(
         mass=values["mass"],

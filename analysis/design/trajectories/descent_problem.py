@@ -55,7 +55,7 @@ def descent_problem(inputs: Mapping[str, Sequence[float]], where: tuple[str, str
     position, velocity, target = (tuple(map(float, inputs[name])) for name in VECTORS)
     distance, full = math.dist(position, target), number["maximum_thrust"] / number["mass"]
     if not distance > 0.0:
-        raise InputError(file, f"{element}.target", "equal to the start of the descent", REMEDY)
+        raise InputError(file, f"{element}.target", "is the start of the descent itself", REMEDY)
     descent = PointMassProblem(
         start_position=position,
         start_velocity=velocity,

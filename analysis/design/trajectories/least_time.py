@@ -32,7 +32,9 @@ def least_propellant(problem: PointMassProblem, intervals: int, accuracy: float 
 
     best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": accuracy})
     if best.x not in paths:
-        raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
+        raise PlanError(
+            f"bound: the optimization found no solution with {intervals} intervals and a duration near {best.x:.2f} s"
+        )
     return paths[best.x]
 
 
@@ -47,4 +49,6 @@ def _bracket(problem: PointMassProblem) -> tuple[float, float]:
             best, minimum = index, fraction
         elif best is not None:
             return float(times[max(0, best - 1)]), float(time)
-    raise PlanError(f"bound: the vehicle cannot reach the target in any time from {times[0]:.3g} to {times[-1]:.3g} s")
+    raise PlanError(
+        f"bound: the vehicle cannot reach the target within any duration from {times[0]:.3g} s to {times[-1]:.3g} s"
+    )

@@ -66,7 +66,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     if bound.sha256 != digest(inputs):
         names = dict.fromkeys([*inputs, *bound.inputs])
         other = [name for name in names if bound.inputs.get(name) != inputs.get(name)]
-        return MissingBound(f"{PLACE} was computed for another {', '.join(other)}; {remedy}")
+        return MissingBound(f"{PLACE} was computed for different values of {', '.join(other)}; {remedy}")
     return bound
 
 
@@ -95,7 +95,7 @@ def read_bound(content: bytes, file: str) -> StoredBound:
     except (TypeError, ValueError, AttributeError) as error:
         raise InputError(file, "", f"not a bound: {error}", remedy) from error
     if bound.sha256 != digest(bound.inputs):
-        raise InputError(file, "sha256", "not the hash of its inputs", remedy)
+        raise InputError(file, "sha256", "does not match the inputs", remedy)
     return bound
 
 

@@ -99,14 +99,20 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
     check_vehicle(planned)
     full, minimum = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
     if not planned.full > transfer.gravity:
-        problem = f"{planned.full:.4g} m/s2 at full thrust do not exceed the gravity of {transfer.gravity:g} m/s2"
+        problem = (
+            f"the acceleration at full thrust, {planned.full:.4g} m/s2, does not exceed gravity, "
+            f"{transfer.gravity:g} m/s2"
+        )
         raise InputError("`maximum_thrust`", full, problem, "give more thrust, or less mass")
     if not planned.least > 0.0:
         raise InputError(
             "`minimum_thrust`", minimum, "the programme never shuts the engine down", "give the engine's minimum thrust"
         )
     if not planned.least < transfer.gravity:
-        problem = f"{planned.least:.4g} m/s2 at this thrust exceed gravity, {transfer.gravity:g} m/s2: no descent"
+        problem = (
+            f"the acceleration at this thrust, {planned.least:.4g} m/s2, exceeds gravity, "
+            f"{transfer.gravity:g} m/s2: the vehicle cannot descend"
+        )
         raise InputError("`minimum_thrust`", minimum, problem, "give less thrust, or more mass")
 
 

@@ -135,7 +135,7 @@ def test_what_does_not_fly_may_be_anything(plan):
     [
         ('[fault.x]\nkind = "melt"\n', "fault.x.kind: 'melt' is not known; use one of override, bias, freeze"),
         ('[fault.x]\nkind = "bias"\n', "fault.x.connector: missing; add connector = ... to the fault.x"),
-        (fault("freeze"), "fault.x.value: a freeze has no value; omit the value: a freeze keeps the"),
+        (fault("freeze"), "fault.x.value: a freeze has no value; omit the value: a freeze holds the current value"),
         (fault("bias", rest=""), "fault.x.value: missing"),
         ('[fault.x]\nconnector = "a.b"\nkind = "freeze"\n', "fault.x.start: missing"),
         (fault(rest="value = 1\nstop = 3"), "fault.x.stop: unknown key; allowed here: connector, kind, value, start,"),

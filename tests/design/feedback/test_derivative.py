@@ -88,7 +88,7 @@ def test_two_unstable_poles_and_two_inputs_may() -> None:
 
 
 def test_a_singular_plant_is_refused() -> None:
-    with pytest.raises(modal.PlacementError, match="A is singular: its singular values go down to 0 of") as caught:
+    with pytest.raises(modal.PlacementError, match="A is singular: its smallest singular value is 0 times") as caught:
         modal.place_derivative([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
     assert caught.value.reason is modal.Reason.SINGULAR
     assert caught.value.number == 0.0

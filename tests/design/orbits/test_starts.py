@@ -99,21 +99,24 @@ def test_hyperbola():
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
-        ({"eccentricity": 1.0}, "eccentricity: 1.0: neither an ellipse nor a hyperbola; give 0 to below 1, or above 1"),
+        (
+            {"eccentricity": 1.0},
+            "eccentricity: 1.0: neither an ellipse nor a hyperbola; give a value from 0 to below 1 (ellipse) or",
+        ),
         ({"eccentricity": -0.1}, "eccentricity: -0.1: neither an ellipse"),
         (
             {"semi_major_axis": -7e6},
-            "semi_major_axis: -7000000.0: not above 0, as an ellipse needs; change semi_major_axis or",
+            "semi_major_axis: -7000000.0: not positive, as an ellipse requires; change semi_major_axis or",
         ),
         (
             {"eccentricity": 1.2},
-            "semi_major_axis: 7000000.0: not below 0, as a hyperbola needs; change semi_major_axis or",
+            "semi_major_axis: 7000000.0: not negative, as a hyperbola requires; change semi_major_axis or",
         ),
         (
             {"semi_major_axis": -7e6, "eccentricity": 1.2, "true_anomaly": 3.0},
             "true_anomaly: 3.0: beyond the asymptote",
         ),
-        ({"mu": 0.0}, "mu: 0.0: not above 0"),
+        ({"mu": 0.0}, "mu: 0.0: not positive"),
         ({"node": float("nan")}, "node: nan: not a finite number"),
         ({"inclination": "97.4"}, "inclination: '97.4': not a finite number; give a number in SI units, angles in rad"),
     ],

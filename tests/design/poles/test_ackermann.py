@@ -106,7 +106,7 @@ def test_one_input_agrees_with_python_control() -> None:
 
 
 def test_what_it_refuses() -> None:
-    with pytest.raises(PlacementError, match="n/m = 5/2") as refused:
+    with pytest.raises(PlacementError, match="states, 5, is not a multiple of the number of inputs, 2") as refused:
         last_rows(np.eye(5), np.ones((5, 2)))
     assert (refused.value.reason, refused.value.number) == (Reason.CLASS, 2.5)
     # controllable with indices 3, 1 and not 2, 2

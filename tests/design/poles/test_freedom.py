@@ -137,7 +137,7 @@ def test_repeated_poles() -> None:
     actual = least_condition(a, b, Spectrum.of(poles, 4), STARTS, 0)
     loop = a - b @ actual.gain
     assert np.linalg.matrix_rank(loop + np.eye(4), 1e-9) == 2  # a full set of eigenvectors
-    with pytest.raises(PlacementError, match="required 3 times and B has rank 2") as refused:
+    with pytest.raises(PlacementError, match="occurs 3 times, but B has rank 2") as refused:
         least_condition(a, b, Spectrum.of([-1.0, -1.0, -1.0, -3.0], 4), STARTS, 0)
     assert (refused.value.reason, refused.value.number) == (Reason.RANK, 3.0)
 

@@ -95,11 +95,11 @@ def test_units_of_inputs_and_coordinates_do_not_matter(seed: int, decade: int) -
 def test_refuses_what_is_not_controllable() -> None:
     a, b, _, poles = next(random_systems(1, 4, 2))
     joint = block_diag(a, [[-1.0]])
-    with pytest.raises(PlacementError, match="1 states are left on level 2") as refused:
+    with pytest.raises(PlacementError, match="1 states are not controllable: on level 2") as refused:
         multilevel(joint, np.vstack([b, np.zeros((1, 2))]), Spectrum.of([*poles, -2.0], 5))
     assert refused.value.reason is Reason.NOT_CONTROLLABLE
     assert refused.value.number < 1e-12
-    with pytest.raises(PlacementError, match="4 states are left on level 0, where the largest singular value"):
+    with pytest.raises(PlacementError, match="4 states are not controllable: on level 0 the largest singular value"):
         multilevel(a, np.zeros((4, 2)), Spectrum.of(poles, 4))
 
 
@@ -116,6 +116,9 @@ def test_what_counts_as_new_is_a_parameter() -> None:
 def test_pairs_need_room() -> None:
     a, b, _, _ = next(random_systems(1, 6, 3))
     poles = [-1 + 1j, -1 - 1j, -2 + 1j, -2 - 1j, -3 + 1j, -3 - 1j]
-    with pytest.raises(PlacementError, match="3 conjugate pairs do not fit on levels of rank 3, 3") as refused:
+    with pytest.raises(
+        PlacementError,
+        match="3 conjugate pairs cannot be distributed over levels of ranks 3, 3 without",
+    ) as refused:
         multilevel(a, b, Spectrum.of(poles, 6))
     assert refused.value.reason is Reason.SPREAD

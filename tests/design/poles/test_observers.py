@@ -61,7 +61,7 @@ def test_least_condition_by_duality() -> None:
 
 def test_what_is_not_observable_or_has_no_rank() -> None:
     a, c = np.diag([1.0, 2.0, 3.0]), [[1.0, 1.0, 0.0]]
-    with pytest.raises(modal.PlacementError, match=r"observer: not observable: of .* measure these states") as refused:
+    with pytest.raises(modal.PlacementError, match=r"observer: not observable: .* measure further states") as refused:
         modal.observer(a, c, [-1.0, -2.0, -3.0])
     assert refused.value.number == 0.0
     with pytest.raises(modal.PlacementError, match="not observable"):
@@ -73,5 +73,5 @@ def test_what_is_not_observable_or_has_no_rank() -> None:
         modal.reduced_observer(a, np.ones((4, 3)), [])
     with pytest.raises(ValueError, match="C measures every state, and no observer is needed"):
         modal.reduced_observer(a, np.eye(3), [])
-    with pytest.raises(ValueError, match="C: is 1 by 2 where A has 3 states; give one column per state"):
+    with pytest.raises(ValueError, match="C: is 1 by 2, but A has 3 states; give one column per state"):
         modal.observer(a, [[1.0, 1.0]], [-1.0, -2.0, -3.0])

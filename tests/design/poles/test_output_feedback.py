@@ -102,11 +102,15 @@ def test_repeated_poles() -> None:
 def test_what_it_refuses() -> None:
     a, b, c, poles = next(random_systems(1, 6, 3, 4, most_pairs=0))
     for arguments, reason, problem in (
-        ((a, b[:, :2], c[:3], poles), modal.Reason.CLASS, r"n, m, p = 6, 2, 3: m \+ p = 5 is less than n"),
+        (
+            (a, b[:, :2], c[:3], poles),
+            modal.Reason.CLASS,
+            r"n = 6 states, m = 2 inputs, p = 3 outputs: m \+ p = 5 must not be less than n",
+        ),
         (
             (a[:2, :2], b[:2, :1], c[:1, :2], [-1, -2]),
             modal.Reason.CLASS,
-            r"F has m p = 1 elements, too few for n poles",
+            r"F has m p = 1 elements, too few to place n poles",
         ),
         ((a, b[:, [0, 1, 1]], c, poles), modal.Reason.RANK, "B does not have full rank"),
         ((a, b, c[[0, 1, 2, 2]], poles), modal.Reason.RANK, "C does not have full rank"),
@@ -115,7 +119,7 @@ def test_what_it_refuses() -> None:
             modal.output_feedback(*arguments)
         assert refused.value.reason is reason
     pairs = [-1 + 1j, -1 - 1j, -2 + 1j, -2 - 1j, -3 + 1j, -3 - 1j]
-    with pytest.raises(modal.PlacementError, match="do not split over the levels"):
+    with pytest.raises(modal.PlacementError, match="cannot be distributed over the levels without splitting a pair"):
         modal.output_feedback(a, b, c, pairs, method="direct")
     actual = modal.output_feedback(a, b, c, pairs)
     assert actual.method == "dual"
@@ -149,7 +153,7 @@ def test_plants_with_modes_out_of_reach() -> None:
         ({"starts": 0}, "modal: starts: 0 starts; give 1 or more"),
         (
             {"upper": [-9.0], "method": "direct"},
-            "modal: upper: 1 poles; give 2, with each repeated pole listed as often as it occurs",
+            "modal: upper: 1 poles; give 2 poles, with each repeated pole listed as often as it occurs",
         ),
         (
             {"upper": [-9.0, -1.0], "method": "direct"},

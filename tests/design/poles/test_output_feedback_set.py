@@ -48,10 +48,10 @@ def test_spectrum_is_that_of_the_block_companion() -> None:
 
 def test_what_it_refuses() -> None:
     a, b, c, _ = next(random_systems(1, 5, 2, 3))
-    with pytest.raises(modal.PlacementError, match="n/m = 5/2"):
+    with pytest.raises(modal.PlacementError, match="states, 5, is not a multiple of the number of inputs, 2"):
         modal.output_feedback_set(a, b, c)
     a, b, c, _ = next(random_systems(1, 4, 2, 3))
-    with pytest.raises(modal.PlacementError, match="C of 3 rows has rank 2") as refused:
+    with pytest.raises(modal.PlacementError, match="C has 3 rows, but rank 2") as refused:
         modal.output_feedback_set(a, b, c[[0, 1, 1]])
     assert refused.value.number == 2
     with pytest.raises(ValueError, match="modal: z: is 5; give 6 numbers"):
@@ -121,7 +121,7 @@ def test_plants_that_a_common_feedback_made() -> None:
     ("plants", "wanted", "problem"),
     [
         ([], np.eye(2), "plants: no plant"),
-        ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: sizes 4, 2 for 2 inputs"),
+        ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: the plants have 4, 2 states and 2 inputs"),
         ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: not an array of numbers; give p matrices"),
         ([turned_plant(1.0)], np.eye(2), r"wanted: has shape \(2, 2\); give shape \(2, 2, 2\)"),
     ],

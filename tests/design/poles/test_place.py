@@ -94,7 +94,7 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
     [
         (([[0.0, 1.0]], *SYSTEM[1:]), {}, "modal: A: is 1 by 2; give a square matrix, n by n"),
         (([0.0, 1.0], *SYSTEM[1:]), {}, "modal: A: has 1 dimensions; give a matrix, a list of rows"),
-        (([[0.0, 1.0], [0.0]], *SYSTEM[1:]), {}, "modal: A: has rows of different length; give a matrix"),
+        (([[0.0, 1.0], [0.0]], *SYSTEM[1:]), {}, "modal: A: has rows of different lengths; give rows of equal length"),
         (([[0.0, 1j], [0.0, 0.0]], *SYSTEM[1:]), {}, "modal: A: has elements of type complex128; give real numbers"),
         (
             ([[0.0, np.inf], [0.0, 0.0]], *SYSTEM[1:]),
@@ -104,12 +104,12 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
         (
             (SYSTEM[0], [[1.0]], SYSTEM[2]),
             {},
-            "modal: B: is 1 by 1, and A has 2 states; give one row per state",
+            "modal: B: is 1 by 1, but A has 2 states; give one row per state",
         ),
         (
             (*SYSTEM[:2], [-1.0]),
             {},
-            "modal: poles: 1 poles; give 2, with each repeated pole listed as often as it occurs",
+            "modal: poles: 1 poles; give 2 poles, with each repeated pole listed as often as it occurs",
         ),
         ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j lacks its conjugate; give 0-2j, too"),
         (
@@ -128,7 +128,7 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
             "modal: choice 'least_norm': method indices has no such option; use method multilevel",
         ),
         (SYSTEM, {"choice": "least_norm", "starts": 0}, "modal: starts: 0 starts; give 1 or more"),
-        (SYSTEM, {"tolerance": 0.0}, "modal: tolerance: 0; give a number between 0 and 1"),
+        (SYSTEM, {"tolerance": 0.0}, "modal: tolerance: 0 is not between 0 and 1; give a number in between"),
         (
             SYSTEM,
             {"tolerance": 1e-6, "method": "ackermann"},
@@ -146,20 +146,24 @@ def test_wrong_levels_are_one_line() -> None:
     a, b, eye = np.eye(4, k=2), np.eye(4)[:, 2:], np.eye(4)
     desired = [-np.eye(2), -np.eye(2)]
     for matrices, bases, problem in (
-        (desired[:1], None, "give one for each level, of sizes 2, 2"),
+        (desired[:1], None, "give one square matrix for each level, of orders 2, 2"),
         ([-np.eye(2), [[-1.0]]], None, r"matrices\[1\]: is 1 by 1; give 2 by 2 numbers"),
         (desired, [eye[:, 2:], eye[:, 2:]], "together they are not an orthonormal basis"),
         (desired, [eye[:, 2:], eye[:, :1]], "together they are not an orthonormal basis"),
         (desired, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are not an orthonormal basis"),
-        (desired, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of the states that drive it"),
-        (desired, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 states where the rank is 2"),
+        (
+            desired,
+            [eye[:, :2], eye[:, 2:]],
+            "the basis of level 0 does not span the directions that the inputs drive: a fraction 1 of",
+        ),
+        (desired, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 columns, but the level has rank 2"),
     ):
         with pytest.raises(InputError, match=problem):
             modal.place_levels(a, b, matrices, bases=bases)
 
 
 def test_refusals_say_a_number_and_survive_pickling() -> None:
-    with pytest.raises(modal.PlacementError, match="the largest singular value left out is") as refused:
+    with pytest.raises(modal.PlacementError, match="the largest singular value of the input matrix is") as refused:
         modal.place(np.diag([1.0, 2.0, 3.0]), [[1.0], [1.0], [0.0]], [-1.0, -2.0, -3.0])
     repeated = pickle.loads(pickle.dumps(refused.value))
     assert (repeated.reason, repeated.number, str(repeated)) == (

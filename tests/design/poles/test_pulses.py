@@ -93,8 +93,8 @@ def test_the_derivative_at_rest_is_the_linear_one() -> None:
 def test_what_is_no_pulse() -> None:
     plant = modal.PulsedPlant.of(np.eye(2), np.eye(2), 0.2)
     for lengths, values, problem in (
-        ([0.1, 0.3], [1.0, 1.0], "lengths: a pulse of 0.3 s; give 0 to 0.2 s, the tick"),
-        ([-0.1, 0.1], [1.0, 1.0], "lengths: a pulse of -0.1 s; give 0 to 0.2 s, the tick"),
+        ([0.1, 0.3], [1.0, 1.0], "lengths: a pulse lasts 0.3 s; give 0 to 0.2 s, the tick"),
+        ([-0.1, 0.1], [1.0, 1.0], "lengths: a pulse lasts -0.1 s; give 0 to 0.2 s, the tick"),
         ([0.1], [1.0, 1.0], "lengths: is 1; give 2 numbers"),
         ([0.1, 0.1], [1.0], "values: is 1; give 2 numbers"),
     ):

@@ -60,6 +60,6 @@ def test_poles_that_the_plant_has_need_little_gain() -> None:
 
 def test_repeated_poles_have_no_derivative() -> None:
     a, b, c, _ = next(random_systems(1, 5, 3, 4))
-    with pytest.raises(modal.PlacementError, match="repeated poles have no") as refused:
+    with pytest.raises(modal.PlacementError, match="needs distinct poles") as refused:
         modal.output_feedback(a, b, c, [-1.0] * 5, choice="smallest")
     assert refused.value.reason is modal.Reason.RANK

@@ -48,7 +48,8 @@ def test_two_by_two_is_placed_where_a_real_solution_exists() -> None:
             placed += 1
         else:
             with pytest.raises(
-                modal.PlacementError, match=r"m \+ p = n, and the best of 3 starts has a residual"
+                modal.PlacementError,
+                match=r"the iteration did not converge \(m \+ p = n\): after the best of 3 starts, the residual of",
             ) as refused:
                 modal.output_feedback(a, b, c, poles, starts=3)
             assert refused.value.reason is modal.Reason.RESIDUAL

@@ -98,11 +98,11 @@ def test_the_file_names_the_functions_that_it_uses() -> None:
 @pytest.mark.parametrize(
     ("pole", "name", "message"),
     [
-        (-K, "lambda", "the name 'lambda': not a name in Python"),
-        (-sp.Symbol("k_{1}", real=True), "formula", "the name 'k_{1}': not a name in Python"),
-        (-K, "gain", "the function uses this name already"),
-        (-sp.gamma(K), "formula", "gamma is a function that kernels do not have"),
-        (-sp.cbrt(K), "formula", "a power that kernels do not have"),
+        (-K, "lambda", "the name 'lambda': not a Python identifier"),
+        (-sp.Symbol("k_{1}", real=True), "formula", "the name 'k_{1}': not a Python identifier"),
+        (-K, "gain", "the generated function already uses this name"),
+        (-sp.gamma(K), "formula", "kernels do not support the function gamma"),
+        (-sp.cbrt(K), "formula", "kernels do not support the power"),
     ],
 )
 def test_refusals(pole: sp.Expr, name: str, message: str) -> None:

@@ -198,8 +198,8 @@ X = sp.Symbol("x", real=True)
 @pytest.mark.parametrize(
     ("a", "b", "required", "options", "message"),
     [
-        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {}, "nothing drives"),
-        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {"method": "ackermann"}, "rank 1 for 2 states"),
+        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {}, "no input drives level"),
+        ([[1, 0], [0, X]], [[1], [0]], [-1, -2], {"method": "ackermann"}, "has rank 1, but the plant has 2 states"),
         ([[0, X], [0, 0]], [[0], [1]], [-1], {}, "1 poles"),
         ([[0, X], [0, 0]], [[0], [1]], [-1 + sp.I, -1 - sp.I], {}, "not real"),
         ([[0, X], [0, 0]], [[0], [1]], [-1, -2], {"method": "acker"}, "unknown"),
@@ -209,7 +209,7 @@ X = sp.Symbol("x", real=True)
             [[0], [1]],
             [-1, -2],
             {"bases": [[[1], [0]], [[0], [1]]]},
-            "does not span the states that drive it",
+            "directions that the inputs drive",
         ),
         ([[0, X], [0, 0]], [[0], [1]], [[[-1]]], {}, "1 matrices"),
         ([[0, X]], [[0], [1]], [-1, -2], {}, "has 2 columns"),

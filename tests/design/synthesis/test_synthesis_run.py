@@ -144,7 +144,7 @@ def refused(words, *arguments, **keywords):
 
 def test_a_folder_with_a_search_is_not_overwritten(whole, tmp_path):
     search = synthesis(tmp_path)
-    refused("the folder already holds a search; give resume to continue it", search, output=whole[1])
+    refused("the folder already contains a search; give resume to continue it", search, output=whole[1])
     refused("resume: no folder to resume from; give output", search, resume=True)
     refused("checkpoint.json: not found; leave out resume", search, output=tmp_path / "new", resume=True)
     refused("seed: differs from its value at the start of the search", search, seed=12, output=whole[1], resume=True)

@@ -183,5 +183,5 @@ def test_lengths_scale_with_the_square_of_time():
 def test_no_time_is_enough():
     assert solve_fixed_time(transfer_problem(HOVER, TRANSFER), 30.0, 40) is None
     weak = replace(HOVER, maximum_thrust=600.0, minimum_thrust=0.0)  # cannot carry its weight
-    with pytest.raises(PlanError, match="cannot reach the target in any time from"):
+    with pytest.raises(PlanError, match="cannot reach the target within any duration from"):
         least_propellant(transfer_problem(weak, TRANSFER), 40)

@@ -129,7 +129,7 @@ def test_the_gradient_is_that_of_gravity(axes):
         ({"mass": (0.0,)}, "mass: 0 is not positive"),
         ({"glide_slope": (2.0,)}, "glide_slope: 2 rad is not a valid angle"),
         ({"minimum_thrust": (6000.0,)}, "minimum_thrust: 6000 N is negative, or not below"),
-        ({"target": tuple(A1.position)}, "target: equal to the start of the descent"),
+        ({"target": tuple(A1.position)}, "target: is the start of the descent itself"),
     ],
 )
 def test_wrong_inputs(change, words):
