@@ -1,1 +1,1 @@
-"""Files of a system: archives and SSP documents, read into plain values, and names in them. No FMU is opened here."""
+"""Files of a system: archives and SSP documents, read into plain values, and names in them. No FMU is opened."""

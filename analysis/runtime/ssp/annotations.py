@@ -13,7 +13,7 @@ from .documents import NAMESPACES, child, children, tag
 
 
 class AnnotationReader:
-    """Base class of the readers of annotations; ``file`` is the SSD that error messages name."""
+    """Base class of the readers of annotations; ``file`` is the name of the SSD in error messages."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -22,14 +22,14 @@ class AnnotationReader:
         return InputError(self.file, f"{tag(element)} (line {element.sourceline})", problem, remedy)
 
     def content(self, annotation: etree._Element, name: str) -> etree._Element:
-        """Return the single element, ``name``, of an annotation."""
+        """Return the single element of an annotation, which must have this ``name``."""
         elements = self.parts(annotation, (name,))[name]
         if len(elements) != 1:
             raise self.refuse(annotation, f"{len(elements)} elements {name}", "write only one")
         return elements[0]
 
     def parts(self, element: etree._Element, known: Collection[str]) -> dict[str, list[etree._Element]]:
-        """Return the child elements by tag; reject unknown ones."""
+        """Return the child elements by tag; reject unknown tags."""
         by_name: dict[str, list[etree._Element]] = {name: [] for name in known}
         for item in element:
             if not isinstance(item.tag, str):
@@ -75,7 +75,7 @@ DIRECT = {"true": True, "false": False}
 
 
 def feedthrough_of_component(component: etree._Element, file: str) -> bool | None:
-    """Return True if all outputs depend on all inputs, False if none depends on any, None if not stated.
+    """Return True if all outputs depend on all inputs, False if no output depends on an input, None if not stated.
 
     Raises InputError.
     """

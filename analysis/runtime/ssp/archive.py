@@ -1,4 +1,4 @@
-"""Files of a system, read-only: an .ssp archive or a folder."""
+"""Files of a system, which are only read: an .ssp archive or a folder."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 @dataclass(frozen=True)
 class SystemArchive:
-    """Files of a system by archive name; ``label`` names it in messages, ``description`` is the default SSD.
+    """Files of a system by archive name.
 
-    ``elsewhere`` maps keys (`fmu_key`, `use_key`, `parameters_key`) to the files that replace those outside the
-    system; if it is not empty, no others are read. ``unlisted`` collects names of files read from the folder that are
-    not in ``files``.
+    ``label`` is the system's name in messages, ``description`` the name of the default SSD. ``elsewhere`` maps keys
+    (`fmu_key`, `use_key`, `parameters_key`) to replacements of files outside the system; if it is not empty, no others
+    are read. ``unlisted`` collects names of files that were read from the folder but are not in ``files``.
     """
 
     name: str
@@ -60,18 +60,18 @@ class SystemArchive:
         return f"{self.label}!{name.removeprefix(EXTRA)}"
 
     def name_of(self, label: str) -> str | None:
-        """Return the archive name of a file from its `label_of`, or None if it is not a file of this system."""
+        """Return the archive name of a file from its `label_of`, or None for a file outside this system."""
         name = label.removeprefix(f"{self.label}!")
         if name == label:
             return None
         return f"{EXTRA}{name}" if f"{EXTRA}{name}" in self.files else name
 
     def read(self, name: str, element: str) -> bytes:
-        """Return the content of a file that ``element`` of the description refers to."""
+        """Return the content of a file to which ``element`` of the description refers."""
         return self._content(self._place(name), element)
 
     def _place(self, source: str) -> str:
-        """Return the archive name of a source URI; %20 is decoded unless a file has it in its name."""
+        """Return the archive name of a source URI; %20 is decoded unless a file name contains it literally."""
         name = posixpath.normpath(source)
         return name if self.has(name) else posixpath.normpath(unquote(source))
 
@@ -80,7 +80,7 @@ class SystemArchive:
         return name in self.files or (self._inside(name) and names_file(self.path / name))
 
     def _inside(self, name: str) -> bool:
-        """Return True if a name not in `system_files` may be that of a file in the system's folder or near it."""
+        """Return True if a name that is not in `system_files` may belong to a file in or near the system's folder."""
         return self.path.is_dir() and (not _leads_outside(name) or (self.known_digest is None and _leads_upwards(name)))
 
     def note(self) -> str | None:
@@ -105,10 +105,10 @@ class SystemArchive:
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
     def fmu(self, source: str, element: str, flavour: str | None) -> tuple[Callable[[], bytes], str]:
-        """Return a function that reads an FMU, and the name of the FMU in messages.
+        """Return a function that reads an FMU, and the FMU's name in messages.
 
-        If a folder lacks the FMU, it is looked up in the working folder, its parent folder and this repository, in the
-        order of `find_fmu`; without a ``flavour``, one of any flavour.
+        If the system's folder lacks the FMU, the working folder, its parent folder and this repository are searched in
+        the order of `find_fmu`. Without a ``flavour``, an FMU of any flavour is accepted.
         """
         if self.is_fmu:
             return read_fmu(self.path), self.label
@@ -131,7 +131,7 @@ class SystemArchive:
         return read_fmu(path), str(path)
 
     def refuse_elsewhere(self, name: str, element: str) -> None:
-        """Raise InputError if the system is in a campaign's folder, which must contain all of its files."""
+        """Raise InputError for a system in a campaign's folder, which must contain all files that it uses."""
         if self.known_digest is not None:
             problem = f"{name} is not among the files in the campaign's folder"
             raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
@@ -141,11 +141,11 @@ class SystemArchive:
         return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:
-        """Return the names of the archive's SSDs, including the default one."""
+        """Return the names of the archive's SSDs, including the default SSD."""
         return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
 
     def description_name(self, variant: str | None) -> str:
-        """Return the archive name of the SSD: the default one or a variant's."""
+        """Return the archive name of the default SSD, or of a variant's SSD."""
         if self.is_fmu:
             raise InputError(self.label, DESCRIPTION, "an FMU alone has no SSD", "give a system")
         name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
@@ -159,11 +159,11 @@ class SystemArchive:
         return name
 
     def parameter_set(self, name: str) -> tuple[bytes, str]:
-        """Return content and label of a parameter set, by its name in the system or by its path."""
+        """Return content and label of a parameter set, found by its name in the system or by its path."""
         return self._find_named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
 
     def campaign(self, name: str) -> tuple[bytes, str]:
-        """Return content and label of a campaign, by its name in the system or by its path."""
+        """Return content and label of a campaign, found by its name in the system or by its path."""
         places = (self.campaign_path(name), self.campaign_path(f"{name}.toml"))
         return self._find_named(name, places, "`campaign`", ".toml")
 
@@ -195,7 +195,7 @@ class SystemArchive:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of names and contents, or the one computed before."""
+        """SHA-256 of all names and contents, or the known digest."""
         if self.known_digest is not None:
             return self.known_digest
         total = hashlib.sha256()
@@ -205,9 +205,9 @@ class SystemArchive:
 
 
 def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix: str) -> None:
-    """Warn that a different file of the same name in the working folder is not read."""
+    """Warn that a different file of the same name in the working folder is ignored."""
     if parent_process() is not None:
-        return  # a worker: its parent process has reported it
+        return  # in a worker: its parent process has warned already
     for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
         if names_file(path) and read_input(path, OTHER, bound_of(suffix)) != content:
             other = path if path.is_absolute() else f"./{path}"
@@ -220,7 +220,7 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
 
 
 def read_fmu(path: Path) -> Callable[[], bytes]:
-    """Return a function that reads an FMU's file, and raises InputError."""
+    """Return a function that reads an FMU's file and may raise InputError."""
     return partial(read_input, path, OTHER, ARCHIVE_BYTES)
 
 
@@ -230,7 +230,7 @@ def fmu_key(source: str) -> str:
 
 
 def use_key(name: str) -> str:
-    """Return the key in `SystemArchive.elsewhere` for an FMU that the option `use` names."""
+    """Return the key in `SystemArchive.elsewhere` for an FMU named by the option `use`."""
     return f"use:{name}"
 
 
@@ -240,7 +240,7 @@ def parameters_key(name: str) -> str:
 
 
 def open_system(system: str | Path) -> SystemArchive:
-    """Open a system by name under ssp_systems, by folder or by .ssp file; an .fmu is a system of one component."""
+    """Open a system by its name under ssp_systems, folder or .ssp file; an .fmu is a system of one component."""
     text = str(system)
     if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
         return _folder(SYSTEMS / text)
@@ -273,12 +273,12 @@ def system_names() -> list[str]:
 
 
 def _leads_outside(name: str) -> bool:
-    """Return True if a normalised name leads out of its starting folder."""
+    """Return True if a normalised name refers to a file outside its starting folder."""
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
 
 
 def _leads_upwards(name: str) -> bool:
-    """Return True if a normalised name leads through .. to a file outside its starting folder."""
+    """Return True if a normalised name begins with .. and refers to a file outside its starting folder."""
     inside = list(itertools.dropwhile("..".__eq__, name.split("/")))
     return name.startswith("../") and bool(inside) and ":" not in inside[0]
 
@@ -287,7 +287,7 @@ def _folder(path: Path, description: str | None = None) -> SystemArchive:
     path = path.resolve()
     label = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else str(path)
     if description is None:
-        has_ssd = any(path.glob("*.ssd"))  # before the folder is searched, which may be a large one
+        has_ssd = any(path.glob("*.ssd"))  # checked before the folder is searched, which may be large
         if not has_ssd and not (path / OSP_DESCRIPTION).is_file():
             remedy = f"give a folder with an SSD or an {OSP_DESCRIPTION}, or such a file by its name"
             if (path / SYSTEM_FILE).is_file():

@@ -18,8 +18,8 @@ from .documents import child, children, tag
 class Unit:
     """Unit: value in base units = factor * value + offset.
 
-    ``exponents`` are those of the base units, None for an undefined unit, which is only a name. ``is_relative``: the
-    unit of a difference, to which offsets do not apply (FMI's relativeQuantity).
+    ``exponents`` contains the exponents of the base units, and is None for an undefined unit, which only has a name.
+    ``is_relative`` is True for the unit of a difference, to which offsets do not apply (FMI's relativeQuantity).
     """
 
     name: str
@@ -29,7 +29,7 @@ class Unit:
     is_relative: bool = False
 
     def differs_from(self, other: Unit) -> str:
-        """Return the name, with base units if the other unit has the same name: ``N.m (kg m2 s-2)``."""
+        """Return the unit's name, with base units if the other unit has the same name, such as ``N.m (kg m2 s-2)``."""
         if self.name != other.name:
             return self.name
         if self.exponents is None:
@@ -47,7 +47,7 @@ class Unit:
         return self.exponents[:-1] == other.exponents[:-1]
 
     def is_same(self, other: Unit) -> bool:
-        """Return True if both are the same unit, by base units or, if these are unknown, by name."""
+        """Return True if both are the same unit, judged by base units or, if these are unknown, by name."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
         return self.exponents == other.exponents and self.conversion_to(other) == (1.0, 0.0)
@@ -61,7 +61,7 @@ class Unit:
 
 
 def unit_by_name(name: str) -> Unit:
-    """Return the unit with a well-known name; for other names a unit without base units."""
+    """Return the unit with a well-known name; for any other name, return a unit without base units."""
     definition = unit_definition(name)
     if definition is None:
         return Unit(name, None)
@@ -80,7 +80,7 @@ def units_of_fmu(description: ModelDescription, label: str) -> dict[str, Unit]:
 
 
 def units_of_document(root: etree._Element, prefix: str, file: str) -> dict[str, Unit]:
-    """Return the units that an SSP document defines; ``prefix`` is that of its namespace: ssd, ssv or ssb.
+    """Return the units that an SSP document defines; ``prefix`` is the document's namespace prefix: ssd, ssv or ssb.
 
     Raises InputError with the ``file``.
     """
@@ -107,7 +107,7 @@ def _unit(name: str, base: Mapping[str, object], file: str) -> Unit:
 class Transformation:
     """Linear transformation, factor * value + offset, or a table from source to target values.
 
-    ``is_partial``: values that the table does not contain stay unchanged, as in SSP 2.0.
+    With a table that ``is_partial``, unlisted values stay unchanged, as in SSP 2.0.
     """
 
     factor: float = 1.0
@@ -117,7 +117,7 @@ class Transformation:
     is_partial: bool = False
 
     def after_units(self, conversion: tuple[float, float]) -> Transformation:
-        """Return the transformation preceded by a unit conversion, in SSP's order."""
+        """Return the transformation preceded by a unit conversion, which is SSP's order."""
         factor, offset = conversion
         return replace(self, factor=self.factor * factor, offset=self.factor * offset + self.offset)
 
@@ -145,7 +145,7 @@ def read_transformation(element: etree._Element) -> Transformation:
 
 
 def check_type(transformation: Transformation, type_name: str, file: str, element: str) -> None:
-    """Reject a transformation that does not apply to values of the type."""
+    """Reject a transformation that cannot be applied to values of the type."""
     if transformation != IDENTITY and type_name not in VALUE_TYPES[transformation.kind]:
         required = VALUE_TYPES[transformation.kind][0]
         raise InputError(

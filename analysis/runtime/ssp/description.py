@@ -13,10 +13,10 @@ from .dimensions import Dimension, Shape
 
 @dataclass(slots=True)
 class Connector:
-    """Declared connector; type and unit are None and the kind is empty if the document does not state them.
+    """Declared connector. Type and unit are None, and the kind is empty, if the document does not state them.
 
-    ``exact_type`` is the type's name in the document, such as Float32; ``dimensions`` are those of an array; ``array``
-    is the name of the array that contains this element.
+    ``exact_type`` is the type's name in the document, such as Float32; ``dimensions`` are the dimensions of an array;
+    ``array`` is the name of the array that contains this element.
     """
 
     name: str
@@ -34,16 +34,16 @@ class Connector:
         return f"{name} (line {self.line})" if self.line else name
 
 
-Point = tuple[str | None, str]  # element, None for the system itself, and connector
+Point = tuple[str | None, str]  # element (None for the system itself) and connector
 
 
 @dataclass(slots=True)
 class Connection:
     """Connection of two connectors.
 
-    ``added`` are further sources, outputs of components like ``start``, whose values are added to it. ``start_indices``
-    and ``end_indices`` are the indices of an array's element, or of the first one of a sub-array; if empty, the whole
-    array is connected.
+    ``added`` lists further sources, outputs of components like ``start``, whose values are added to the value of
+    ``start``. ``start_indices`` and ``end_indices`` are the indices of an array's element, or of the first element of a
+    sub-array; if they are empty, the complete array is connected.
     """
 
     start: Point
@@ -66,7 +66,7 @@ class Connection:
 
 @dataclass
 class Binding:
-    """Parameter binding, with its set and its mapping each in a source file or inline."""
+    """Parameter binding; its parameter set and its mapping are each in a source file or inline."""
 
     prefix: str
     source: str | None
@@ -90,8 +90,9 @@ class Element:
 class Component(Element):
     """Component of a system.
 
-    ``step`` (s) is the component's if it differs from the system's. ``feedthrough``: True if its outputs depend
-    directly on all inputs, False if on none, None if its FMU decides.
+    ``step`` is the component's step (s) if it differs from the system's. ``feedthrough`` is True if the component's
+    outputs depend directly on all inputs, False if they depend on no input, and None if its FMU declares the
+    dependencies.
     """
 
     source: str
@@ -106,7 +107,7 @@ class DictionaryReference(Element):
 
 @dataclass
 class SystemElement(Element):
-    """System or inner system; an inner one may exchange values with another ``step`` (s).
+    """System or inner system. An inner system may exchange values with a different ``step`` (s).
 
     ``about`` is the system's own description.
     """
@@ -120,7 +121,7 @@ class SystemElement(Element):
 
 @dataclass
 class SystemDescription:
-    """Content of one document. ``varies`` is the line of a master algorithm with variable step."""
+    """Content of a document. ``varies`` is the line of a master algorithm with variable step, if there is one."""
 
     file: str
     name: str
@@ -132,8 +133,8 @@ class SystemDescription:
     step: float | None
     algorithm: str | None = None
     varies: int | None = None
-    annotations: dict[str, etree._Element] = field(default_factory=dict)  # those of the whole document, by type
-    notes: list[str] = field(default_factory=list)  # on entries without effect
+    annotations: dict[str, etree._Element] = field(default_factory=dict)  # annotations of the document itself, by type
+    notes: list[str] = field(default_factory=list)  # notes on entries without effect
 
 
 PROXY = "proxyfmu://"
@@ -141,7 +142,7 @@ HERE = ("localhost", "127.0.0.1")
 
 
 def source_file(source: str) -> str:
-    """Return the file that a component's source names.
+    """Return the file to which a component's source refers.
 
     libcosim, Ecos and Vico simulate ``proxyfmu://localhost?file=x.fmu`` in another process, with the same results as
     x.fmu. A source on another machine is not a file of the system, and is returned unchanged.

@@ -1,4 +1,4 @@
-"""Arrays of SSP 2.0: their dimensions in documents, and names of elements, ``x[2,1]``, row by row from 1."""
+"""Arrays of SSP 2.0: their dimensions in documents, and names of their elements, such as ``x[2,1]``, counted from 1."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Dimension:
 
 
 def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: bool = False) -> tuple[Dimension, ...]:
-    """Return the dimensions of a connector or parameter, none for a scalar. Raises InputError.
+    """Return the dimensions of a connector or parameter, which are empty for a scalar. Raises InputError.
 
     If ``fixed``, each dimension must state its size.
     """
@@ -47,22 +47,22 @@ def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: boo
 
 
 def indices(shape: Shape) -> list[Shape]:
-    """Return the indices of all elements, row by row; for a scalar one empty index."""
+    """Return the indices of all elements in row-major order; for a scalar, a single empty index."""
     return list(itertools.product(*(range(1, size + 1) for size in shape)))
 
 
 def element_name(array: str, index: Shape) -> str:
-    """Return the name of an element; for a scalar its own name."""
+    """Return the name of an array's element, or the name of a scalar."""
     return f"{array}[{','.join(map(str, index))}]" if index else array
 
 
 def element_names(array: str, shape: Shape) -> list[str]:
-    """Return the names of all elements of an array, row by row."""
+    """Return the names of all elements of an array, in row-major order."""
     return [element_name(array, index) for index in indices(shape)]
 
 
 def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
-    """Return the shapes of the complete arrays among names of elements, in order of first appearance."""
+    """Return the shapes of the arrays whose elements are all among the names, in order of first appearance."""
     known = dict.fromkeys(names)
     arrays: dict[str, list[Shape]] = {}
     for name in known:

@@ -1,7 +1,7 @@
-"""XML documents from untrusted sources: no DOCTYPE, validated against the schema of their version, with lines.
+"""XML documents from untrusted sources: no DOCTYPE, validated against the schema of their version, with line numbers.
 
 SSP 1.0 and 2.0 have the same namespaces; the attribute ``version`` selects the schema. The schemas of version 2.0 are
-those distributed with pyssp_standard, whose code is not imported.
+distributed with pyssp_standard, whose code is not imported.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def schema_folder(version: str) -> Path:
 
 
 def version_of(root: etree._Element, file: str) -> str:
-    """Return the SSP version of a document or a nested one. Raises InputError for unsupported versions."""
+    """Return the SSP version of a document or of a nested document. Raises InputError for unsupported versions."""
     version = root.get("version", "")
     if not root.tag.startswith(f"{{{STANDARD}"):
         return VERSIONS[0]  # the schema rejects documents that are not SSP
@@ -74,7 +74,9 @@ def parse_xml(data: bytes, file: str) -> etree._Element:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
         raise InputError(file, f"line {error.lineno}", f"not well-formed XML: {error.msg}", "fix the XML") from error
-    if root.getroottree().docinfo.internalDTD is not None:  # in an encoding in which the bytes look otherwise
+    if (
+        root.getroottree().docinfo.internalDTD is not None
+    ):  # a DOCTYPE in another encoding, which the search for bytes misses
         raise refusal
     return root
 
@@ -83,7 +85,7 @@ def _parser(schema: etree.XMLSchema | None = None) -> etree.XMLParser:
     return etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, schema=schema)
 
 
-MOST_VIOLATIONS = 100  # lxml locates each of them by counting all elements before it
+MOST_VIOLATIONS = 100  # lxml locates each violation by counting all elements before it
 
 
 def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> bool:
@@ -138,10 +140,10 @@ def child(element: etree._Element, name: str) -> etree._Element | None:
 
 
 def children(element: etree._Element | None, name: str) -> list[etree._Element]:
-    """Return all children with a prefixed name; none for a missing element."""
+    """Return all children with a prefixed name; an empty list for a missing element."""
     return [] if element is None else element.findall(name, NAMESPACES)
 
 
 def tag(element: etree._Element) -> str:
-    """Return the local name of an element, "" for comments and processing instructions."""
+    """Return the local name of an element, or "" for comments and processing instructions."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

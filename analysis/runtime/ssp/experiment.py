@@ -1,7 +1,7 @@
 """Communication steps and algorithms, which SSP does not define, from annotations of Perilune and other tools.
 
-OMSimulator writes a master into each system; the Open Simulation Platform (libcosim, Vico) writes an algorithm into the
-default experiment and hints into components. The masters of both use Jacobi's algorithm.
+OMSimulator writes a master algorithm into each system. The Open Simulation Platform (libcosim, Vico) writes an
+algorithm into the default experiment, and hints into components. Both use Jacobi's algorithm.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github
 
 @dataclass(frozen=True)
 class StepSettings:
-    """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step."""
+    """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step, if there is
+    one.
+    """
 
     step: float | None = None
     algorithm: str | None = None
@@ -30,7 +32,7 @@ class StepSettings:
 
 
 def pace_of_experiment(experiment: etree._Element | None, file: str) -> StepSettings:
-    """Return the pace of the default experiment. Raises InputError."""
+    """Return step and algorithm of the default experiment. Raises InputError."""
     for kind, item in _read_annotation(experiment):
         if kind == OURS and tag(item) == "CommunicationStep":
             return StepSettings(_seconds(item, ("size",), file))
@@ -40,7 +42,7 @@ def pace_of_experiment(experiment: etree._Element | None, file: str) -> StepSett
 
 
 def pace_of_system(system: etree._Element, file: str) -> StepSettings:
-    """Return the pace of a system, without its inner systems. Raises InputError."""
+    """Return step and algorithm of a system, regardless of its inner systems. Raises InputError."""
     for kind, item in _read_annotation(system):
         if kind == OMSIMULATOR or kind in OSP:
             if tag(item) == "FixedStepMaster":
@@ -59,7 +61,7 @@ def step_of_component(component: etree._Element, file: str) -> float | None:
 
 
 def _read_annotation(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
-    """Yield every element in the annotations of an element, after the annotation's type."""
+    """Yield the type of each annotation of an element, with each element inside the annotation."""
     if element is not None:
         for annotation in children(child(element, "ssd:Annotations"), "ssc:Annotation"):
             for item in annotation.iterdescendants(etree.Element):

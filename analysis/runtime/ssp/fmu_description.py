@@ -14,7 +14,7 @@ from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
-STATE_ANNOTATION = "org.perilune.state"  # in FMUs that declare how they serialise their memory, or that they do not
+STATE_ANNOTATION = "org.perilune.state"  # in FMUs that declare how, or that they do not, serialise their memory
 MANY_BYTES = 1_000_000  # size of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
 VARIABLE = "ModelVariables/ScalarVariable"
@@ -68,7 +68,9 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def require_attributes(element: etree._Element, names: Sequence[str], label: str, where: str) -> None:
-    """Raise InputError, at ``where``, if an attribute of an element is missing, or is empty although it may not be."""
+    """Raise InputError, at ``where``, if an attribute of an element is missing, or is empty where this is not
+    permitted.
+    """
     for name in names:
         text = element.get(name)
         if text is None:
@@ -78,7 +80,7 @@ def require_attributes(element: etree._Element, names: Sequence[str], label: str
 
 
 def check_rules(xml: bytes, version: int, label: str) -> None:
-    """Reject a long description with many violations of the schema of FMI 2 or 3, since FMPy is slow to list them."""
+    """Reject a long description with many violations of the schema of FMI 2 or 3, which FMPy would be slow to list."""
     if len(xml) > MANY_BYTES:
         schema = SCHEMAS / f"fmi{version}" / f"fmi{version}ModelDescription.xsd"
         check_violations(etree.XMLSchema(etree.parse(schema)), xml, f"{label}!{DESCRIPTION}")
@@ -93,14 +95,14 @@ def external_state_of(xml: bytes) -> tuple[str, ...]:
 
 
 def find_annotation(root: etree._Element, name: str) -> etree._Element | None:
-    """Return an element of Perilune's annotation on an FMU's memory, in FMI 2.0 or 3.0, or None."""
+    """Return an element of Perilune's annotation about an FMU's memory, in FMI 2.0 or 3.0, or None."""
     if root.get("fmiVersion") == "2.0":
         return root.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/{name}")
     return root.find(f"Annotations/Annotation[@type='{STATE_ANNOTATION}']/{{*}}{name}")
 
 
 def _check_indices(root: etree._Element, label: str) -> None:
-    """Reject references to undefined variables by number, counted from 1."""
+    """Reject references, counted from 1, to undefined variables."""
     count = len(root.findall(VARIABLE))
     for path, attributes in INDICES.items():
         for element in root.iterfind(path):

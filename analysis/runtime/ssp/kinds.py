@@ -1,17 +1,17 @@
-"""Kinds of connectors, and which may be connected: the table of allowed connections of SSP 2.0.
+"""Kinds of connectors, and the connections that are allowed between them: the table of SSP 2.0.
 
-It includes that of SSP 1.0. The system is the one that contains the connection; elements are inside it.
+It includes the table of SSP 1.0. The system is the one that contains the connection; elements are inside it.
 """
 
 from __future__ import annotations
 
-PARAMETERS = ("parameter", "structuralParameter")  # have their value before a flight
+PARAMETERS = ("parameter", "structuralParameter")  # kinds with values that are known before a simulation
 LED_OUT = ("output", "local", "calculatedParameter", "constant")  # kinds that lead out of a system
 OUT = ("output", "local")
 VALUES = ("calculatedParameter", *OUT)
 IN = ("input", "inout")
 ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
-    # (whether the source is the system, its kind): kinds of targets by whether they are the system's
+    # (True for a source of the system, kind of the source): {True for targets of the system: kinds of targets}
     (True, "structuralParameter"): {True: VALUES, False: (*PARAMETERS, *IN)},
     (True, "parameter"): {True: VALUES, False: ("parameter", *IN)},
     (True, "input"): {True: OUT, False: IN},
@@ -19,7 +19,7 @@ ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
     (False, "calculatedParameter"): {True: VALUES, False: ("parameter", *IN)},
     (False, "output"): {True: OUT, False: IN},
     (False, "local"): {True: OUT, False: IN},
-    (False, "inout"): {True: OUT, False: IN},  # the standard has no way from one dictionary to another; we have
+    (False, "inout"): {True: OUT, False: IN},  # an extension: SSP does not permit connecting two dictionaries
 }
 
 

@@ -1,7 +1,7 @@
 """Names of signals and parameters, ``component.variable``, split with the known components.
 
 Component names contain dots if systems are nested, and some tools put dots into variable names (``motor.speed``): only
-the list of components tells where one ends and the other begins.
+the list of components tells where the component's name ends.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Container, Iterable, Mapping, Set
 
-MOST_DIMENSIONS = 6  # of an array that is named as a whole
+MOST_DIMENSIONS = 6  # of an array for which a single name stands
 
 
 def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[str, str]:
-    """Return component and variable of a name, with the longest matching component; "" for the system itself."""
+    """Return component and variable of a name, with the longest matching component, or "" for the system itself."""
     owner, dot, _ = name.rpartition(".")
     while dot and owner not in components:
         owner, dot, _ = owner.rpartition(".")
@@ -21,14 +21,15 @@ def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[
 
 
 def vectors(names: Iterable[str]) -> list[str]:
-    """Return the names of vectors from those of their elements: ``plant.position`` for ``plant.position[1]``."""
+    """Return the names of vectors from names of their elements: ``plant.position`` from ``plant.position[1]``."""
     return list(dict.fromkeys(name.removesuffix("[1]") for name in names if name.endswith("[1]")))
 
 
 def elements(name: str, known: Container[str]) -> list[str]:
     """Return the known names that a name stands for; an empty list if it is unknown.
 
-    These are the name itself, or name[1], name[2] ... of a vector, or name[1,1], name[1,2] ... of a matrix, row by row.
+    A name stands for itself, or for the elements name[1], name[2] ... of a vector, or name[1,1], name[1,2] ... of a
+    matrix in row-major order.
     """
     return [name] if name in known else _list_indexed(f"{name}[", known, MOST_DIMENSIONS)
 

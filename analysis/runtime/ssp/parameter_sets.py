@@ -21,8 +21,8 @@ from .types import RUNTIME_TYPES, runtime_type
 class Assignment:
     """Value for a parameter, with its origin.
 
-    ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line is ``Text`` and takes
-    the type of its target. An element of an array has its ``index`` in it and the ``shape`` of the array.
+    ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line has the type ``Text``
+    and takes the type of its target. An element of an array has its ``index`` in the array and the array's ``shape``.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Assignment:
 
     @property
     def array(self) -> str:
-        """Name of the array that contains the element, or the assignment's own name."""
+        """Name of the array that contains the element, or the name of the assignment itself."""
         return self.name.removesuffix(element_name("", self.index)) if self.index else self.name
 
     @property
@@ -52,7 +52,7 @@ class Assignment:
         return f"{name} line {self.line}" if self.line else name
 
 
-Notes = list[str] | None  # collects flaws that others' files may have; None: they are refused
+Notes = list[str] | None  # collects flaws that are tolerated in files of other tools; None if flaws are rejected
 
 
 def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy: str) -> None:
@@ -65,7 +65,7 @@ def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy
 def read_parameter_set(
     root: etree._Element, file: str, notes: Notes = None, units: Mapping[str, Unit] | None = None
 ) -> list[Assignment]:
-    """Return the values of a ParameterSet element; ``units`` are those of a surrounding document.
+    """Return the values in a ParameterSet element; ``units`` are the units defined by a surrounding document.
 
     Raises InputError.
     """
@@ -129,7 +129,9 @@ def apply_mapping(
 def read_parameter_file(
     data: bytes, file: str, notes: Notes = None, remarks: list[str] | None = None
 ) -> list[Assignment]:
-    """Return the values of an .ssv document; add a line for each signature in it to ``remarks``. Raises InputError."""
+    """Return the values in an .ssv document; append a line to ``remarks`` for each of its signatures. Raises
+    InputError.
+    """
     root = read_document(data, "ssv", file)
     _remark(remarks, root, file)
     return read_parameter_set(root, file, notes)
@@ -148,17 +150,17 @@ def read_binding(
     notes: Notes = None,
     remarks: list[str] | None = None,
 ) -> tuple[list[Assignment], Sequence[Assignment]]:
-    """Return the mapped and prefixed values of a binding in the document ``file``, and the unmapped ones.
+    """Return the mapped and prefixed values of a binding in the document ``file``, and the unmapped values.
 
-    Values without an entry in the mapping are not applied (SSP 1.0, ParameterBindings). ``units`` are those of the
-    document; ``remarks`` receives a line for each signature in the binding's files. Raises InputError.
+    Values without an entry in the mapping are not applied (SSP 1.0, ParameterBindings). ``units`` are the units defined
+    by the document; ``remarks`` receives a line for each signature in the binding's files. Raises InputError.
     """
     element = f"ParameterBinding (line {binding.line})"
     if binding.source is not None:
         source = f"{archive.label}!{binding.source}"
         values = read_parameter_file(archive.read(binding.source, element), source, notes, remarks)
     else:
-        assert binding.inline is not None  # the reader refuses a binding with neither
+        assert binding.inline is not None  # the reader rejects a binding with neither
         values = read_parameter_set(binding.inline, file, notes, units)
     values = [replace(value, name=binding.prefix + value.name) for value in values]
     entries = binding.mapping_inline

@@ -1,4 +1,4 @@
-"""Values of a Parameter in a parameter set: one value, or in SSP 2.0 those of an array, row by row."""
+"""Values of a Parameter in a parameter set: a single value or, in SSP 2.0, the values of an array (row-major)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
         low, high = integer_range(type_name)
         if (
             type_name not in ("Integer", "Int32") and not low <= number <= high
-        ):  # for other types the target has the bounds
+        ):  # bounds of other types are those of the target
             raise InputError(file, element, f"{number} is not of type {type_name}", f"give {low} to {high}")
         return number
     if kind == "Boolean":
@@ -41,7 +41,7 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
 def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> tuple[Shape, list[ParameterValue]]:
     """Return the shape of a Parameter, () for a scalar, and its values; ``typed`` is the element of its type.
 
-    Lists of numbers are space-separated in the attribute ``value``; those of Strings and Enumerations are in elements
+    Lists of numbers are space-separated in the attribute ``value``; Strings and Enumerations are listed in elements
     Value. Raises InputError.
     """
     where = f"{parameter.get('name', '')} (line {parameter.sourceline})"

@@ -1,4 +1,4 @@
-"""Reads a SystemStructureDescription: from the XML of an SSD to a `SystemDescription`."""
+"""Reader of a SystemStructureDescription: from the XML of an SSD to a `SystemDescription`."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from .experiment import StepSettings, pace_of_experiment, pace_of_system, step_o
 from .osp.structure import read_osp
 from .types import RUNTIME_TYPES, runtime_type
 
-Load = Callable[[str, str], bytes]  # content of a file by name, and the element that names it
+Load = Callable[[str, str], bytes]  # returns the content of a file, from its name and the element that refers to it
 FMU_TYPE = "application/x-fmu-sharedlibrary"
 
 
 def read_description(archive: SystemArchive, variant: str | None = None) -> SystemDescription:
-    """Return the content of an archive's SSD, the default one or a variant's. Raises InputError."""
+    """Return the content of an archive's SSD, which is the default SSD or a variant's. Raises InputError."""
     name = archive.description_name(variant)
     data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
     return read_osp(data, file, archive) if name.endswith(OSP_SUFFIX) else read_ssd(data, file, archive.read)
@@ -45,7 +45,7 @@ def read_ssd(data: bytes, file: str, load: Load) -> SystemDescription:
 
 
 class Reader:
-    """Reader of one SSD, see `read_ssd`."""
+    """Reader of one SSD; see `read_ssd`."""
 
     def __init__(self, file: str, load: Load) -> None:
         self.file = file
@@ -157,7 +157,7 @@ class Reader:
     def common(self, element: etree._Element, *, signals: bool = False) -> dict:
         """Return the fields common to all elements.
 
-        ``signals``: the connectors are those of a dictionary, which have both directions.
+        With ``signals``, the connectors are signals of a dictionary, which have both directions.
         """
         connectors: dict[str, Connector] = {}
         for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):

@@ -1,4 +1,4 @@
-"""Types of connectors and parameters in SSP 1.0 and 2.0, and the runtime's type of each."""
+"""Types of connectors and parameters in SSP 1.0 and 2.0, and the corresponding types of the runtime."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ RUNTIME_TYPES = {
     "Binary": "Binary",
 }
 WHOLE = ("Integer", "Enumeration")  # the runtime's integer types
-GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FMI 3.0 has
+GENERAL = ("Real", "Integer")  # the only numeric types of SSP 1.0, also for variables of FMI 3.0
 
 
 def runtime_type(name: str) -> str:
-    """Return the runtime's type for a type's name in a document or an FMU."""
+    """Return the runtime's type for the name of a type in a document or an FMU."""
     return RUNTIME_TYPES.get(name, name)
 
 
 def is_of_type(stored: str, declared: str) -> bool:
-    """Return True if a variable's type fits the declared one: Real and Integer include all types of their kind.
+    """Return True if a variable's type fits the declared type: Real and Integer include all types of their kind.
 
     An Enumeration may be declared as an Integer, as in older FMUs, since its items are numbers.
     """

@@ -1,1 +1,1 @@
-"""Systems: files read, checked and prepared for simulation."""
+"""Systems that are read, checked and prepared for simulation."""

@@ -15,16 +15,16 @@ from .fmu import Fmu
 from .options import STEP_ROUNDING, SystemOptions
 
 CONNECTED = ("input", "output", "parameter")
-DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
+DURATION = 1.0  # s, if the FMU proposes no end; also the default of FMPy
 
 
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[SystemDescription, list[str]]:
-    """Return the description of a system of one FMU, and remarks on defaults where the FMU proposes nothing.
+    """Return the description of a system of one FMU, and remarks on defaults for values that the FMU does not propose.
 
-    Inputs, outputs and parameters are the component's connectors; start, end and step are those of its default
-    experiment. By default the start is 0, the end 1 s later, and the step the FMU's internal one or FMPy's
-    `auto_interval` of the duration; unless it is requested, the end is the last whole step before the FMU's. Raises
-    InputError for a variant, which an FMU does not have.
+    Inputs, outputs and parameters are the component's connectors; start, end and step are those of the FMU's default
+    experiment. By default the start is 0, the end is 1 s later, and the step is the FMU's internal step or FMPy's
+    `auto_interval` of the duration. Unless the end is requested, it is the last multiple of the step before the FMU's
+    end. Raises InputError for a variant, since an FMU has no variants.
     """
     if options.chosen["variant"] is not None:
         raise InputError(fmu.label, "`variant`", "an FMU alone has no variants", "leave out `variant`")
@@ -33,7 +33,7 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[SystemDescription,
         for variable in fmu.variables.values()
         if variable.causality in CONNECTED and not (variable.type in TEXTS and variable.causality != "parameter")
     }
-    # a component is called what its model is, or the C identifier that the FMU has in addition
+    # the component's name is that of the model, or the FMU's C identifier
     name = fmu.name if fmu.name.isidentifier() else re.sub(r"\W", "_", fmu.description.coSimulation.modelIdentifier)
     component = Component(name, connectors, [], 0, fmu.label)
     start, stop, step, remarks = _times(fmu, options)
@@ -66,7 +66,7 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         duration = (stop if options.chosen["stop_time"] is None else options.chosen["stop_time"]) - start
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
         remarks.append(f"the FMU proposes no step: {step:g} s is used")
-    ratio = (stop - start) / step if step else math.nan  # 0 is refused with the times of all systems
+    ratio = (stop - start) / step if step else math.nan  # a step of 0 is rejected later, as for all systems
     steps = math.floor(ratio + STEP_ROUNDING) if 0.0 < ratio < math.inf else 0
     if options.chosen["stop_time"] is None and steps and ratio - steps > STEP_ROUNDING:
         whole = start + steps * step

@@ -27,23 +27,24 @@ from .passing.units import check_offset
 
 SETTABLE = (*PARAMETERS, "input")
 SINGLE = "`set`"  # origin of single values, unless a file sets them
-TEXT = "Text"  # type of a single value, which takes that of its target
-ELEMENTS = ","  # between the values of a vector
-RANGE = ":"  # between the numbers of a sweep, which is not a single value
+TEXT = "Text"  # type of a single value, which is converted to the type of its target
+ELEMENTS = ","  # separates the values of a vector
+RANGE = ":"  # separates the numbers of a sweep, which is no single value
 INDEX = re.compile(r"\[[\d,]+\]$")
 
 
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> SystemSettings:
-    """Return all values of a system: its bindings from the inside out, then ``assignments``; later ones win.
+    """Return all values of a system: its bindings from the inside out, then ``assignments``; later values take
+    precedence.
 
-    Raises InputError for a name that matches nothing (unless allowed), a value that does not fit its variable, and
-    declared inputs that have neither connection nor value (unless they keep their starts).
+    Raises InputError for a name that matches nothing (unless allowed), for a value that does not fit its variable, and
+    for declared inputs without connection and value (unless they keep their start values).
     """
     settings, allow_unmatched = SystemSettings(), options.chosen["allow_unmatched"]
     notes = network.notes if allow_unmatched else None
-    # Deeper systems first: the binding of an outer one wins.
+    # Deeper systems first, since bindings of outer systems override theirs.
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
         for element in system.elements.values():
             if isinstance(element, Component):
@@ -61,13 +62,13 @@ def collect_settings(
 
 
 def single_value(name: str, value: SetValue, place: tuple[str, int] | None = None) -> Assignment:
-    """Return the assignment of a single value or of a vector's elements; ``place`` is file and line, if any."""
+    """Return the assignment of a value to a scalar or to a vector's elements; ``place`` is file and line, if known."""
     file, line = place or (SINGLE, 0)
     return Assignment(name.strip(), ELEMENTS.join(_texts(value)), TEXT, None, file, line)
 
 
 def _texts(value: object) -> list[str]:
-    """Return the elements of a value as text; the value may be a list, "1,2,3", or one number."""
+    """Return the elements of a value as texts; the value may be a list, a text such as "1,2,3", or a number."""
     if isinstance(value, str):
         return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(ELEMENTS)]
     if isinstance(value, Iterable):
@@ -76,7 +77,7 @@ def _texts(value: object) -> list[str]:
 
 
 def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
-    """Return one assignment for each element of a vector, others unchanged. Raises InputError."""
+    """Return one assignment for each element of a vector; other assignments stay unchanged. Raises InputError."""
     if assignment.type_name != TEXT:
         return [assignment]
     names = _element_names(network, "", assignment.name)
@@ -91,7 +92,7 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
 
 
 def _element_names(network: Network, path: str, name: str) -> list[str]:
-    """Return the flat names of an array's elements; none for a scalar."""
+    """Return the flat names of an array's elements; an empty list for a scalar."""
     system = network.systems[path]
     owner, remainder = split_name(name, system.elements)
     element = system.elements.get(owner)
@@ -105,8 +106,8 @@ def _element_names(network: Network, path: str, name: str) -> list[str]:
 
 
 def _check_shape(network: Network, path: str, prefix: str, assignment: Assignment) -> None:
-    """Reject values whose number differs from that of their array's elements."""
-    if set(assignment.index) == {1}:  # the first element, for all of them
+    """Reject values if their number differs from the number of elements of their array."""
+    if set(assignment.index) == {1}:  # one error, at the first element, for the entire array
         name = prefix + assignment.array
         known = _element_names(network, path, name)
         if known and set(known) != {path + each for each in element_names(name, assignment.shape)}:
@@ -122,7 +123,7 @@ def _bound(
     place: str,
     notes: Notes,
 ) -> list[Assignment]:
-    """Return the assignments of parameter bindings in order, their names prefixed with ``place``."""
+    """Return the assignments of parameter bindings in order, with ``place`` as prefix of their names."""
     assignments: list[Assignment] = []
     for binding in bindings:
         values, without = read_binding(archive, network.file, binding, network.description.units, notes, network.notes)
@@ -136,7 +137,7 @@ def _bound(
 
 
 def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
-    """Return the target of a name inside a system: a system connector, or (component, variable)."""
+    """Return the target to which a name in a system refers: a system connector, or (component, variable)."""
     system: SystemElement = network.systems[path]
     if name in system.connectors:
         return network.nodes[path + name]
@@ -193,7 +194,7 @@ def _apply(
 
 
 def _check_driven(network: Network, assignment: Assignment) -> None:
-    """Reject a single value for a connected input, which would be lost before the first step."""
+    """Reject a single value for a connected input, since the value would be overwritten before the first step."""
     link = network.driver.get(assignment.name)
     if assignment.type_name == TEXT and assignment.name in network.driven:
         problem = f"is driven by column {network.driven[assignment.name]} of the inputs over time"
@@ -242,7 +243,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
     if transformation.table:
         value = _map_value(assignment, transformation, type_name, node)
     if type_name == "Enumeration":
-        by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
+        by_value = {str(number): number for number in node.enumeration.values()}  # OMSimulator writes items as numbers
         items = by_value | node.enumeration
         if str(value) in items:
             return items[str(value)]
@@ -256,7 +257,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
 
 
 def _map_value(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
-    """Return the assignment's value after its mapping, which for an enumeration may use the items' numbers."""
+    """Return the assignment's value after its mapping, which may refer to the items of an enumeration by number."""
     value, where = assignment.value, (assignment.file, assignment.where)
     if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
         type_name, value = "Integer", node.enumeration.get(str(value), value)

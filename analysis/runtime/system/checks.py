@@ -1,4 +1,4 @@
-"""Checks before a simulation: FMUs that do not fit their slots, shared parameters, short sample periods, faults."""
+"""Checks before a simulation: FMUs that do not fit their components, shared parameters, sample periods, faults."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from .network import Network
 from .options import STEP_ROUNDING
 from .passing.settings import SystemSettings
 
-MOST = 6  # FMUs that are named
+MOST = 6  # most FMUs that an error names
 
 
 def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
-    """Return the error for an FMU that does not fit its slot; ``error`` is the description's."""
+    """Return the error for an FMU that does not fit its component; ``error`` is the error in the description."""
     fits = list(_iterate_fitting_fmus(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
     remedy = f"these fit: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here fits; build one with its connectors"
@@ -31,7 +31,7 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
 
 
 def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
-    """Return the error for a missing FMU in a slot; it suggests the most similar name that fits."""
+    """Return the error for the missing FMU of a component; it suggests the most similar name of an FMU that fits."""
     remedy = f"of those that fit {slot} {suggestion(fmu, _iterate_fitting_fmus(component))}; or build your own"
     return InputError("`use`", f"{slot}={fmu}", "no such FMU is built", remedy)
 
@@ -48,7 +48,7 @@ def _iterate_fitting_fmus(component: Component) -> Iterator[str]:
 
 
 def check_shared(network: Network, settings: SystemSettings) -> None:
-    """Reject a chosen value that a parameter of the system replaces.
+    """Reject a value chosen by the user that a parameter of the system replaces.
 
     Values on which several components must agree are parameters of the system, so that no component can deviate. Raises
     InputError.
@@ -77,9 +77,9 @@ def check_aliases(network: Network) -> None:
 
 
 def check_samples(network: Network, settings: SystemSettings, step: float, periods: dict[str, int]) -> None:
-    """Reject a sample period shorter than the step of its component.
+    """Reject a sample period that is shorter than the step of its component.
 
-    The FMU would take several samples in one step, and others would read only the last. Raises InputError.
+    The FMU would take several samples in one step, and other components would only read the last. Raises InputError.
     """
     for component, fmu in network.fmus.items():
         variable = fmu.variables.get(SAMPLE_PERIOD)
@@ -106,7 +106,7 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
 def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> ScalarVariable:
     """Return the variable of a connector, ``component.connector``, that can be changed during simulation.
 
-    These are outputs, inputs that are connected or driven, and with ``tunable`` also tunable parameters. ``where``
+    Such variables are outputs, inputs that are connected or driven and, with ``tunable``, tunable parameters. ``where``
     (file, element) is named in errors. Raises InputError.
     """
     known: dict[str, ScalarVariable] = {}
@@ -131,7 +131,7 @@ def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: 
 
 
 def check_value(variable: ScalarVariable, kind: str, value: float | bool, where: tuple[str, str]) -> None:
-    """Reject a value that a connector cannot have. ``where`` as in `changeable`. Raises InputError."""
+    """Reject a value that a connector cannot have. ``where`` is as in `changeable`. Raises InputError."""
     if kind == "freeze":
         return
     type_name, stored = variable.type, variable.representation

@@ -1,4 +1,4 @@
-"""FMUs of a system's components, from options or from its description, with their array sizes."""
+"""FMUs of a system's components, chosen by options or by its description, with their array sizes."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ Read = Callable[[], bytes]
 
 
 class ComponentFmus:
-    """Loader of the FMUs of one system. All methods raise InputError.
+    """Loader of the FMUs of a system. All methods raise InputError.
 
-    ``loaded`` caches FMUs by label; ``description`` is the system's current one, which determines array sizes.
+    ``loaded`` caches FMUs by label; ``description`` is the current description of the system, which determines array
+    sizes.
     """
 
     description: SystemDescription
@@ -36,10 +37,10 @@ class ComponentFmus:
         self.archive = archive
         self.options = options
         self._loaded = loaded
-        self.elsewhere: dict[str, Read] = {}  # files that are not the system's, as in `PreparedSystem`
-        self.retired: dict[str, tuple[str, Retired]] = {}  # by component: the name in use, and its replacement
+        self.elsewhere: dict[str, Read] = {}  # files outside the system, as in `PreparedSystem`
+        self.retired: dict[str, tuple[str, Retired]] = {}  # the used name and its replacement, by component
         self.notes: list[str] = []  # notes on parameter files
-        self._used: dict[str, Component] = {}  # components whose FMU an option names
+        self._used: dict[str, Component] = {}  # components with an FMU named by an option
 
     def load(self, name: str, component: Component) -> Fmu:
         """Return the FMU of a component, with its array sizes."""
@@ -74,7 +75,7 @@ class ComponentFmus:
         return read, label
 
     def _current_name(self, component: str, name: str) -> str:
-        """Return the name of the FMU that replaces a retired one, and note it; otherwise return the name."""
+        """Return the name of the FMU that replaces a retired FMU, and note it; return other names unchanged."""
         retired = find_retired(name, self.archive.path)
         if retired is None:
             return name
@@ -82,7 +83,7 @@ class ComponentFmus:
         return retired.block
 
     def open(self, read: Read, label: str) -> Fmu:
-        """Return an FMU by its label, reading it at first use."""
+        """Return an FMU by its label; read it at first use."""
         if label not in self._loaded:
             self._loaded[label] = load_fmu(read(), label, strict=self.options.chosen["strict"])
         return self._loaded[label]
@@ -97,7 +98,7 @@ class ComponentFmus:
 
     @cached_property
     def sizes(self) -> Sizes:
-        """Sizes of dimensions, for the description at first use."""
+        """Sizes of dimensions, from the description at first use."""
         return Sizes(
             self.description, lambda: assigned_values(self.description, self.archive, self.assignments), self.load
         )
@@ -118,7 +119,9 @@ class ComponentFmus:
         ]
 
     def refuse_unfit(self, error: InputError) -> None:
-        """Replace an error in the connections of a component whose FMU an option names by a clearer one."""
+        """Replace an error in the connections of a component by a clearer error if an option names the component's
+        FMU.
+        """
         slot = next((slot for slot in self._used if error.element.startswith(f"{slot}.")), None)
         if slot is not None and error.file == self.description.file:
             raise unfit(slot, self.options.use[slot], self._used[slot], error) from error
@@ -134,7 +137,7 @@ def _flavours(flavour: str | None) -> tuple[str, ...]:
 
 
 def locate_fmu(name: str, flavour: str | None, option: str = "`use`", system: Path | None = None) -> tuple[Read, str]:
-    """Return a function that reads an FMU, and its label, by name or path; names include FMUs of the ``system``.
+    """Return a function that reads an FMU, and its label, by name or path; the names include FMUs of the ``system``.
 
     Raises InputError.
     """

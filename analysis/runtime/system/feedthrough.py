@@ -10,7 +10,7 @@ from ....common.errors import InputError
 from .network import Network
 from .options import SystemOptions
 
-Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs that it depends on directly
+Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs on which it depends directly
 OPTIONS = ("`feedthrough`", "`no_feedthrough`")
 
 
@@ -26,13 +26,14 @@ class Origin(StrEnum):
 
 @dataclass(frozen=True)
 class Feedthrough:
-    """Direct dependencies by component and output: ``stepping`` orders the steps, ``initial`` the initialisation.
+    """Direct dependencies by component and output: ``stepping`` orders the steps, ``initial`` orders the
+    initialisation.
 
-    ``undeclared`` are components for which nobody states an output's dependencies, in the order of the SSD. Such a
-    component is stepped with inputs of t_n, and initialised as if its outputs depended on all inputs. Components
-    without a driven input are not included, since their order has no effect. ``cuts`` are connections to them that
-    close a loop, and are cut because the initialisation cannot solve it. ``origins`` is the source of each component's
-    dependencies.
+    ``undeclared`` lists, in the order of the SSD, the components with an output whose dependencies are stated neither
+    by the FMU, nor by the SSD or a user. Such a component is stepped with inputs of t_n, and initialised as if its
+    outputs depended on all inputs. Components without a driven input are omitted, since their order has no effect.
+    ``cuts`` lists connections to undeclared components that close a loop; they are cut because the initialisation
+    cannot solve the loop. ``origins`` maps each component to the source of its dependencies.
     """
 
     stepping: Dependencies
@@ -57,13 +58,13 @@ ASSUMED = (
 
 
 def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *, is_alone: bool) -> Feedthrough:
-    """Return the direct dependencies of every component, with those that are assumed.
+    """Return the direct dependencies of every component, including assumed dependencies.
 
-    A user's option overrides the SSD's annotation, which applies only to the FMU that the SSD names, not to one that
-    replaces it (``use``); both override the FMU. A stand-alone FMU (``is_alone``) steps to t_(n+1) with inputs of t_n,
-    whatever its dependencies, as in FMPy. So does every FMU in Jacobi's algorithm, which needs assumptions only for the
-    initialisation. Raises InputError for an unknown component, one in both options, and ``feedthrough`` of a
-    stand-alone FMU.
+    A user's option overrides the SSD's annotation, which applies only to the FMU that the SSD names, not to an FMU that
+    replaces it (``use``). Both override the FMU's declaration. A stand-alone FMU (``is_alone``) steps to t_(n+1) with
+    inputs of t_n, whatever its dependencies, as in FMPy. So does every FMU in Jacobi's algorithm, which needs
+    assumptions only for the initialisation. Raises InputError for an unknown component, for a component in both
+    options, and for ``feedthrough`` of a stand-alone FMU.
     """
     _check(network.fmus, options, is_alone=is_alone)
     stated = {
@@ -93,7 +94,7 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
 
 
 def _read_locals(network: Network, component: str) -> set[str]:
-    """Return local variables connected as sources, whose dependencies no FMU declares."""
+    """Return local variables that are connected as sources, since FMUs do not declare their dependencies."""
     return {
         link.source.variable
         for link in network.links()
@@ -128,10 +129,10 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
 
 
 def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:
-    """Cut the initial loops through undeclared dependencies; also return the inputs without their connections.
+    """Cut the initial loops through undeclared dependencies; return the new dependencies, and the inputs at the cuts.
 
-    A loop is cut at the first of its undeclared components in the order of the SSD: the input there keeps its start
-    value, and the outputs that depend on it directly are computed with that value.
+    A loop is cut at the first of its undeclared components in the order of the SSD: the component's input in the loop
+    keeps its start value, and the outputs that depend on it directly are computed with that value.
     """
     initial = {name: dict(outputs) for name, outputs in feedthrough.initial.items()}
     driven = {link.target.name: link for link in network.driver.values() if not link.is_parameter}

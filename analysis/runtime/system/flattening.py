@@ -1,4 +1,4 @@
-"""Flattens a description and checks its connectors and connections."""
+"""Flattening of a description, with checks of its connectors and connections."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from .network import Network, Node, NodeLink
 from .passing.units import convert_units
 
 SUMMED = ("Real", "Integer")
-# Types of source and target that fit though they differ.
+# Different types of source and target that are compatible.
 WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"), ("Enumeration", "Integer"), ("Enumeration", "Real"))
 
 
 def build_network(description: SystemDescription, load: Callable[[str, Component], Fmu]) -> Network:
     """Return the flat network of a description, with every connector and connection checked.
 
-    ``load(name, component)`` returns the FMU of a component by its flat name. Raises InputError.
+    ``load(name, component)`` returns the FMU of a component by the component's flat name. Raises InputError.
     """
     network = Network(description)
     _walk(network, description.system, "")
@@ -70,7 +70,7 @@ def _add(network: Network, node: Node) -> None:
 
 
 def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) -> Unit | None:
-    """Return the unit declared by a connector, by its flat name: one of the SSD, or of its FMU."""
+    """Return the unit of a connector, by its flat name: the unit declared in the SSD, or else in its FMU."""
     unit = connector.unit
     if unit is None:
         return None
@@ -87,7 +87,7 @@ def _plain_node(network: Network, name: str, connector: Connector) -> Node:
 
 
 def _component_node(network: Network, component: str, connector: Connector) -> Node:
-    """Return the node of a component's connector, checked against its FMU's variable."""
+    """Return the node of a component's connector, checked against the variable in its FMU."""
     fmu = network.fmus[component]
     name = f"{component}.{connector.name}"
     variable = fmu.variables.get(connector.name)
@@ -152,7 +152,9 @@ def _end(network: Network, path: str, system: SystemElement, point: Point, conne
 
 
 def _signal(network: Network, path: str, reference: DictionaryReference, signal: str, where: str) -> Node:
-    """Return the node of a dictionary's signal; the dictionary is the nearest of that name, going outwards."""
+    """Return the node of a dictionary's signal; the dictionary is the nearest one of that name in the surrounding
+    systems.
+    """
     level = path
     while True:
         system = network.systems[level]
@@ -190,9 +192,10 @@ def _connect(network: Network, path: str, system: SystemElement, connection: Con
 def find_direction(
     network: Network, path: str, system: SystemElement, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
-    """Return source and target of a connection with their nodes, since SSP does not define its direction.
+    """Return source and target of a connection with their nodes, since SSP does not define the direction of a
+    connection.
 
-    ``path`` is that of the ``system`` that contains the connection. Raises InputError.
+    ``path`` is the path of the ``system`` that contains the connection. Raises InputError.
     """
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
@@ -211,7 +214,7 @@ def find_direction(
 
 
 def _link(network: Network, path: str, system: SystemElement, connection: Connection) -> NodeLink:
-    """Return the link of a connection, from its start or, if values flow backwards, from its end."""
+    """Return the link of a connection, from the connection's start or, if values flow backwards, from its end."""
     (_, start), (_, end) = find_direction(network, path, system, connection)
     if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
@@ -223,7 +226,7 @@ def _link(network: Network, path: str, system: SystemElement, connection: Connec
 
 
 def _settle_types(network: Network) -> None:
-    """Set undeclared types of system connectors to those of their source or readers."""
+    """Set undeclared types of system connectors to the types of their sources or targets."""
     changed = True
     while changed:
         changed = False

@@ -1,4 +1,4 @@
-"""FMU as a file: checked and unpacked, with its variables, units and dependencies."""
+"""FMU file that has been checked and unpacked, with its variables, units and dependencies."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
 from ..ssp.fmu_description import DESCRIPTION, check_description, check_rules, external_state_of
 
-MOST_FLAWS = 3  # named in one line
-MOST_DESCRIPTIONS = 32  # kept at once
+MOST_FLAWS = 3  # most flaws named in one line
+MOST_DESCRIPTIONS = 32  # most descriptions in the cache
 SOURCES = "sources/"
 STRUCTURAL = "structuralParameter"
 NOT_VARIED = ("a structural parameter, which sizes arrays, cannot vary from trial to trial", "set it with `set`")
@@ -43,15 +43,15 @@ class Fmu:
     label: str
     digest: str
     description: ModelDescription
-    folder: Path  # unpacked; removed with the object
+    folder: Path  # unpacked FMU; removed with this object
     variables: dict[str, ScalarVariable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
     is_own: bool = False  # built by Perilune
     external_state: tuple[str, ...] = ()  # names of a block's objects that its FMU state does not contain
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
-    sizes: Mapping[str, int] = field(default_factory=dict)  # structural parameters that are not as declared
-    origin: Fmu | None = None  # the FMU as loaded, if sizes were changed
-    content: bytes = field(default=b"", repr=False, compare=False)  # the file, of one built by Perilune
+    sizes: Mapping[str, int] = field(default_factory=dict)  # structural parameters with other than declared values
+    origin: Fmu | None = None  # the loaded FMU, if this one has other sizes
+    content: bytes = field(default=b"", repr=False, compare=False)  # content of the file, if Perilune built it
 
     @property
     def name(self) -> str:
@@ -59,7 +59,7 @@ class Fmu:
 
     @property
     def printers(self) -> list[str]:
-        """Name of the FMU, see `PreparedSystem.printers`."""
+        """Name of the FMU; see `PreparedSystem.printers`."""
         return [self.name]
 
     @property
@@ -89,16 +89,16 @@ class Fmu:
 
     @property
     def structural_parameters(self) -> list[str]:
-        """Parameters of FMI 3.0 that size arrays, or that are set before an instance is structured."""
+        """Parameters of FMI 3.0 that determine array sizes, or that are set in configuration mode."""
         return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
 
     def unit_of(self, variable: ScalarVariable) -> Unit | None:
-        """Return the unit of a variable, or None if it has none or the FMU does not define it."""
+        """Return the unit of a variable, or None if it has no unit or the FMU does not define the unit."""
         unit = self.units.get(variable.unit or "")
         return unit if unit is None else replace(unit, is_relative=variable.is_relative)
 
     def with_sizes(self, sizes: Mapping[str, int]) -> Fmu:
-        """Return the FMU with other structural parameters, by name; its arrays have the resulting sizes."""
+        """Return the FMU with these values of structural parameters, and arrays of the resulting sizes."""
         loaded = self.origin or self
         if sizes == self.sizes:
             return self
@@ -116,7 +116,7 @@ class Fmu:
     def read_dependencies(self) -> dict[str, set[str] | None]:
         """Return, for each output, the inputs on which it depends directly according to ModelStructure.
 
-        An output without a declaration has None.
+        The value is None for an output without declared dependencies.
         """
         inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
         outputs: dict[str, set[str] | None] = {
@@ -127,7 +127,7 @@ class Fmu:
                 if unknown.dependencies is not None:
                     outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}
             return outputs
-        named: dict[int, list[str]] = {}  # elements and aliases: what depends on one element may depend on all
+        named: dict[int, list[str]] = {}  # elements and aliases; a dependency on one element counts as one on all
         for name, variable in self.variables.items():
             named.setdefault(variable.reference, []).append(name)
         for unknown in self.description.outputs:
@@ -192,14 +192,14 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
 def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, ...]]:
     """Return an FMU's modelDescription.xml, or None if it is unreadable, and the rules that it violates.
 
-    This takes most of the time of loading an FMU. The result is never modified, and is shared when a system is prepared
-    again.
+    Reading the description takes most of the time of loading an FMU. The result is never modified, and is reused when a
+    system is prepared again.
     """
     try:
         return _complete(read_model_description(_open_zip(xml), validate=True), xml), ()
     except ValidationError as error:
         flaws = tuple(" ".join(problem.split()) for problem in error.problems)
-    except Exception as error:  # fmpy raises bare Exception and lxml's errors; others are not for readers
+    except Exception as error:  # FMPy raises bare Exception and lxml's errors; other errors are programming errors
         kind = "" if type(error) is Exception or isinstance(error, etree.LxmlError) else f"{type(error).__name__}: "
         flaws = (f"FMPy cannot read it: {kind}{' '.join(str(error).split())}",)
     try:
@@ -233,7 +233,7 @@ def _binary(description: ModelDescription) -> str:
 def _with_fixed_parameters(xml: bytes) -> bytes:
     """Return the description with varying parameters, as pythonfmu writes them, declared as fixed.
 
-    FMPy rejects them otherwise, and they are only set before a simulation.
+    FMPy would reject varying parameters, and these are only set before a simulation.
     """
     root = parse_xml(xml, DESCRIPTION)
     for variable in root.iterfind("ModelVariables/ScalarVariable[@causality='parameter']"):
@@ -243,7 +243,7 @@ def _with_fixed_parameters(xml: bytes) -> bytes:
 
 
 def _open_zip(xml: bytes) -> io.BytesIO:
-    """Return an archive in memory that contains only the description, for FMPy to read."""
+    """Return an archive in memory that contains only the description, from which FMPy can read it."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         archive.writestr(DESCRIPTION, xml)

@@ -1,6 +1,6 @@
-"""Inputs of a system that are not connected: open ones, and those that a series of samples drives over time.
+"""Inputs of a system that are not connected: open inputs, and inputs that a series of samples drives over time.
 
-A series drives tunable parameters in the same way.
+Tunable parameters can be driven in the same way.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .series import InputSeries
 
 
 def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_starts: bool) -> None:
-    """Keep inputs without a source or value at their FMUs' start values, or reject all of them in one message.
+    """Keep inputs without a source or value at their FMUs' start values, or reject all such inputs with one message.
 
     Raises InputError.
     """
@@ -63,7 +63,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
         if node.component is not None:
             start = network.fmus[node.component].variables[node.variable].start
             network.notes.append(f"{node.name}: open input, keeps {start}")
-        for link in readers.get(node.name, ()):  # targets of a system's open input are open, too
+        for link in readers.get(node.name, ()):  # the targets of an open input of a system are open, too
             del network.driver[link.target.name]
             if link.target.name not in without:
                 without.add(link.target.name)
@@ -71,9 +71,9 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
 
 
 def _drop_partial_arrays(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
-    """Return open inputs without those of arrays in which another element is connected or has a value.
+    """Return the open inputs without inputs in arrays of which another element is connected or has a value.
 
-    SSP 2.0 cannot declare single elements of an array: the others keep the FMU's start values, which is noted.
+    SSP 2.0 cannot declare single elements of an array: these inputs keep the FMU's start values, which is noted.
     """
     names = {node.name for node in open_inputs}
     in_part = {(node.component, node.array) for node in inputs if node.array and node.name not in names}
@@ -85,14 +85,14 @@ def _drop_partial_arrays(network: Network, inputs: Sequence[Node], open_inputs: 
 
 
 def missing_outputs(network: Network) -> list[str]:
-    """Return a note if the system's FMUs have no outputs, so that only named variables are recorded."""
+    """Return a note if the system's FMUs have no outputs, so that only variables requested by name are recorded."""
     if any(variable.causality == "output" for fmu in network.fmus.values() for variable in fmu.variables.values()):
         return []
     return [f"{network.file}: no FMU has an output; name variables to record with `record`"]
 
 
 def check_signals(network: Network, settings: SystemSettings) -> None:
-    """Reject a signal that is read but never driven; note outputs without a source and undeclared inputs.
+    """Reject signals that are read but never driven; note outputs without a source, and undeclared inputs.
 
     Raises InputError.
     """
@@ -116,12 +116,12 @@ def check_signals(network: Network, settings: SystemSettings) -> None:
 
 
 HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated
-POINTS = 1_000_000  # points interpolated at once, which takes ten times their memory
+POINTS = 1_000_000  # number of points interpolated at once, which needs ten times their memory
 CLOSE = 1e-9  # relative difference of equal times, as in FMPy and math.isclose
 
 
 class DrivenInput(TypedDict):
-    """Series that drives inputs, and the names of these inputs."""
+    """Inputs driven by a series: the source of the series, and the names of the inputs."""
 
     file: str
     sha256: str
@@ -138,7 +138,7 @@ class InputFacts(TypedDict, total=False):
 class Drive:
     """Inputs driven by a series, by name, with their values ``table`` [points + 1, inputs].
 
-    Row 0 is for the initialisation, row n + 1 for communication point n.
+    Row 0 contains the values for the initialisation, row n + 1 the values at communication point n.
     """
 
     series: InputSeries
@@ -154,8 +154,8 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
     """Return the columns of a series by the names of the inputs that they drive.
 
     Inputs are unconnected connectors of the system or of a component, ``component.variable``, and tunable parameters;
-    those of an FMU simulated ``alone`` may omit the component. Raises InputError for other columns, and for numbers
-    that the type cannot represent.
+    the component may be omitted for an FMU simulated ``alone``. Raises InputError for other columns, and for numbers
+    that the type of an input cannot represent.
     """
     types = {
         node.name: (node.type_name or "Real", REPRESENTATIONS[OF_FMI2[node.type_name or "Real"]])
@@ -206,7 +206,7 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
 
 
 def _check_bounds(network: Network, series: InputSeries, column: str, name: str) -> None:
-    """Reject values of a tunable parameter outside its bounds; inputs may exceed theirs."""
+    """Reject values of a tunable parameter outside its bounds; inputs may exceed their bounds."""
     component, short = split_name(name, network.fmus)
     variable = network.fmus[component].variables[short] if component else None
     if variable is not None and variable.is_tunable:
@@ -218,7 +218,7 @@ def _check_bounds(network: Network, series: InputSeries, column: str, name: str)
 def drive_inputs(
     network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
 ) -> Drive:
-    """Return the values of ``driven`` inputs, as from `find_driven`, at all communication points.
+    """Return the values of ``driven`` inputs, as found by `find_driven`, at all communication points.
 
     Raises ExcessError if free memory does not suffice.
     """
@@ -236,7 +236,9 @@ def drive_inputs(
 
 
 def _is_continuous(network: Network, name: str) -> bool:
-    """Return True if an input is interpolated: a continuous Real of an FMU, or a system's input to only such."""
+    """Return True if an input is interpolated: a continuous Real of an FMU, or a system's input that only drives such
+    Reals.
+    """
     for component, fmu in network.fmus.items():
         if name.startswith(f"{component}."):
             variable = fmu.variables.get(name.removeprefix(f"{component}."))
@@ -249,9 +251,9 @@ def _is_continuous(network: Network, name: str) -> bool:
 def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
     """Return a continuous input at ``points`` (s), interpolated as FMPy's `Input.interpolate` does.
 
-    ``values`` at ``time`` (s) are interpolated linearly, and held before the first and after the last. A repeated time
-    is an event: its last value counts if ``after_event``, else its first. An event at the first time of all has its
-    first value.
+    ``values`` at ``time`` (s) are interpolated linearly, and are constant before the first and after the last time. A
+    repeated time is an event: its last value is used if ``after_event``, else its first value. An event at the very
+    first time always has its first value.
     """
     last = time.size - 1
     right = np.searchsorted(time, points)
@@ -261,7 +263,7 @@ def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, aft
     moments = points[inner]
     repeated = _close(time[:-1], time[1:])
     at_event = _close(moments, time[behind]) & np.append(repeated, False)[behind]
-    run_ends = np.flatnonzero(~np.append(repeated, False))  # where runs of one time end
+    run_ends = np.flatnonzero(~np.append(repeated, False))  # last rows of equal times
     event = run_ends[np.searchsorted(run_ends, behind)] if after_event else behind
     between = ~at_event
     inside = values[event]
@@ -273,9 +275,11 @@ def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, aft
 
 
 def hold(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """Return a discrete input at ``points`` (s), each value held from its time on, as in FMPy's `Input.interpolate`.
+    """Return a discrete input at ``points`` (s); each value is held from its own time on, as in FMPy's
+    `Input.interpolate`.
 
-    If ``after_event``, a value already counts at its own time. The first value counts at the first time in any case.
+    If ``after_event``, a value is used at its own time already, else only after it. The first value is used at the
+    first time in any case.
     """
     last = time.size - 1
     right = np.searchsorted(time, points)

@@ -17,8 +17,8 @@ from .fmu import Fmu
 class Node:
     """Connector of the flat network: of a component or a system, or a dictionary's signal.
 
-    ``kind`` is the connector's (inout for dictionary signals); ``component`` is None for connectors without an FMU.
-    ``array`` is the array connector that contains it.
+    ``kind`` is the connector's kind (inout for dictionary signals); ``component`` is None for connectors without an
+    FMU. ``array`` is the array connector that contains the node.
     """
 
     name: str
@@ -40,8 +40,8 @@ class Node:
 class NodeLink:
     """Connection between nodes, with unit conversion and transformation combined.
 
-    ``keeps_number``: units are not converted (SSP's suppressUnitConversion). ``added`` are links from components to the
-    same target, a component's, whose values are added.
+    ``keeps_number`` is True if units are not converted (SSP's suppressUnitConversion). ``added`` lists further links to
+    the same target, an input of a component, whose values are added.
     """
 
     source: Node
@@ -65,8 +65,9 @@ class NodeLink:
 class Network:
     """Flat system. ``notes`` are remarks for `perilune validate`.
 
-    ``mixed`` are connectors without an FMU that are connected to both values and differences of values
-    (relativeQuantity). ``frames`` are the axis names of the frames declared by the SSD, ``axes`` those of signals.
+    ``mixed`` contains connectors without an FMU that are connected both to values and to differences of values
+    (relativeQuantity). ``frames`` maps the frames declared by the SSD to the names of their axes, and ``axes`` maps
+    signals to the names of their axes.
     """
 
     description: SystemDescription
@@ -75,7 +76,7 @@ class Network:
     driver: dict[str, NodeLink] = field(default_factory=dict)  # by name of the target node
     systems: dict[str, SystemElement] = field(default_factory=dict)  # by path with trailing dot, "" for the root
     notes: list[str] = field(default_factory=list)
-    driven: dict[str, str] = field(default_factory=dict)  # inputs that a series drives, with its columns
+    driven: dict[str, str] = field(default_factory=dict)  # columns of a series, by the inputs that they drive
     mixed: set[str] = field(default_factory=set)
     frames: dict[str, tuple[str, ...]] = field(default_factory=dict)
     axes: dict[str, str] = field(default_factory=dict)
@@ -89,7 +90,7 @@ class Network:
         return InputError(self.file, where, problem, remedy)
 
     def unit_of(self, signal: str) -> Unit | None:
-        """Return the unit of a recorded signal: of its connector, else of the FMU's variable."""
+        """Return the unit of a recorded signal, from its connector or else from the FMU's variable."""
         if signal in self.nodes:
             return self.nodes[signal].unit
         component, variable = split_name(signal, self.fmus)

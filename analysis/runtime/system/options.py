@@ -15,21 +15,21 @@ from ...options.choices import FUSED, LogLevel
 from ...options.option import SetValue, options_of
 from ...options.values import complete_options
 
-STEP_ROUNDING = 1e-9  # fraction of a step by which a time, a period or a range may miss whole steps
+STEP_ROUNDING = 1e-9  # fraction of a step by which a time, a period or a range may deviate from a multiple
 
 
-# Sources of options of a system, from the lowest to the highest: a later one wins. Below all of them are the
-# bindings of the system's own description. All parameter sets come before all single values.
+# Sources of system options by increasing precedence. The bindings of the system's own description have the lowest
+# precedence of all. All parameter sets are applied before all single values.
 LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 
 
 @dataclass(frozen=True)
 class Layer:
-    """Options of one source.
+    """Options from a single source.
 
-    ``use`` maps a component to the FMU that replaces its own, by block name or path; ``parameters`` lists parameter
-    sets; ``set`` maps ``component.variable`` to a value in SI units, or ``component.vector`` to one value for each
-    element. ``places`` maps a name in ``set`` to its file and line, if it has one.
+    ``use`` maps a component to the FMU that replaces its own, by block name or path. ``parameters`` lists parameter
+    sets. ``set`` maps ``component.variable`` to a value in SI units, or ``component.vector`` to a value for each
+    element. ``places`` maps a name in ``set`` to its file and line, if known.
     """
 
     use: Mapping[str, str] = field(default_factory=dict)
@@ -50,8 +50,8 @@ NETWORK, WRITE = "network", "write="
 class Trust:
     """Permissions of foreign FMUs, `TrustOptions`: set by the user, never read from a campaign's folder.
 
-    Untrusted FMUs run in a separate process, without network access, and may only write where they are allowed to.
-    Raises InputError.
+    Untrusted FMUs run in a separate process without network access, and may only write to permitted folders. Raises
+    InputError.
     """
 
     trust: declared.TrustOptions = field(default_factory=declared.TrustOptions, compare=False)
@@ -91,11 +91,11 @@ class _Keywords(declared.SystemKeywords, total=False):
 class SystemOptions(Trust, Layer):
     """All system options, in the groups of their declaration in `options/system.py`.
 
-    In ``chosen``, an ``algorithm`` of None means the one in the system's description, else sequential; a ``flavour`` of
-    None means native FMUs if they are built; ``open_inputs`` of None means ``refuse`` for a system and ``start`` for a
-    stand-alone FMU. ``limits`` apply to processes with foreign FMUs. Relative paths are relative to ``folder``, since
-    an FMU may change the process's working folder. Options are equal if they are the same without trust, limits and
-    folder. Raises InputError.
+    In ``chosen``, None has these meanings: for ``algorithm``, the algorithm in the system's description, else
+    sequential; for ``flavour``, native FMUs if they are built; for ``open_inputs``, ``refuse`` for a system and
+    ``start`` for a stand-alone FMU. ``limits`` apply to processes with foreign FMUs. Relative paths are relative to
+    ``folder``, since an FMU may change the process's working folder. Trust, limits and folder are ignored when options
+    are compared. Raises InputError.
     """
 
     chosen: declared.ChosenOptions = field(default_factory=declared.ChosenOptions)
@@ -116,7 +116,7 @@ class SystemOptions(Trust, Layer):
 
     @property
     def build(self) -> Build | None:
-        """Build of Perilune's FMUs; None: native if built."""
+        """Build of Perilune's FMUs; None means native FMUs if they are built."""
         flavour = self.chosen["flavour"]
         return None if flavour == FUSED else cast(Build | None, flavour)
 
@@ -127,11 +127,13 @@ class SystemOptions(Trust, Layer):
         return layer | {name: each for group in GROUPS for name, each in getattr(self, group).items()}
 
     def replace(self, **changes: Unpack[_Keywords]) -> SystemOptions:
-        """Return these options with some changes."""
+        """Return a copy of these options with some changes."""
         return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
     def merge(self, **layers: Layer) -> SystemOptions:
-        """Return these options, the command line's, merged with those of other sources, by the names of `LAYERS`."""
+        """Return these options, which come from the command line, merged with options of other sources by names in
+        `LAYERS`.
+        """
         remaining: dict[str, Layer] = {"command_line": self, **layers}
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
         if remaining:
@@ -145,7 +147,7 @@ class SystemOptions(Trust, Layer):
         return SystemOptions(**cast(_Keywords, {**vars(self), **merged}))
 
 
-GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> its options
+GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> type with its options
     "trust": declared.TrustOptions,
     "chosen": declared.ChosenOptions,
     "limits": declared.LimitOptions,
@@ -153,33 +155,33 @@ GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> its options
 
 
 def system_options(options: Mapping[str, Any]) -> SystemOptions:
-    """Return the system options contained in the options of a verb, by name."""
+    """Return the system options among the options of a verb, by name."""
     keywords = {name: options[name] for name in options_of(declared.SystemKeywords) if name in options}
     return SystemOptions(**cast(_Keywords, keywords))
 
 
 def select_permissions(options: Mapping[str, Any]) -> Trust:
-    """Return the permissions of foreign FMUs contained in the options of a verb."""
+    """Return the permissions of foreign FMUs among the options of a verb."""
     keywords = {name: options[name] for name in options_of(declared.TrustOptions) if name in options}
     return Trust(**cast(declared.TrustOptions, keywords))
 
 
 def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
-    """Return the file and line of each value that takes effect, if its layer has them."""
+    """Return the file and line of each value that takes effect, for values whose layer states them."""
     last = {name: layer for layer in layers for name in layer.set}
     return {name: layer.places[name] for name, layer in last.items() if name in layer.places}
 
 
 LOG_LEVELS: tuple[str, ...] = get_args(LogLevel)
-# The least fmi2Status of each level: discard, warning, OK; of `all` FMUs are asked for all their categories, too.
+# Least fmi2Status of each level: discard, warning, OK. With `all`, FMUs also log all of their categories.
 SAID_FROM = dict(zip(LOG_LEVELS, (2, 1, 0, 0), strict=True))
 
 
 @dataclass(frozen=True)
 class Watch:
-    """Supervision of a simulation: ``timeout`` (s of wall time) ends it, ``log`` is the least level of messages.
+    """Supervision of a simulation, which ``timeout`` (s of wall time) ends; ``log`` is the least level of messages.
 
-    Raises InputError for a time that is not positive, and an unknown level.
+    Raises InputError for a time that is not positive, and for an unknown level.
     """
 
     timeout: float | None = None

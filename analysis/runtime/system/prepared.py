@@ -35,10 +35,11 @@ from .times import component_periods, flight_times
 
 @dataclass
 class PreparedSystem:
-    """Checked system, ready for `Simulation`. Times in s; ``remarks`` are defaults taken for a stand-alone FMU.
+    """Checked system, ready for `Simulation`. Times are in s.
 
-    ``drive`` are its inputs over time, if any; ``elsewhere`` reads the files that do not belong to the system, by the
-    keys of `SystemArchive.elsewhere`. ``retired`` are notes on FMUs with retired names.
+    ``remarks`` state defaults that were used for a stand-alone FMU. ``drive`` contains the inputs over time, if there
+    are any. ``elsewhere`` contains functions that read the files outside the system, by the keys of
+    `SystemArchive.elsewhere`. ``retired`` contains notes on FMUs with retired names.
     """
 
     archive: SystemArchive
@@ -50,7 +51,7 @@ class PreparedSystem:
     start: float
     step: float
     steps: int
-    periods: dict[str, int]  # communication steps in one step of a component, if more than one
+    periods: dict[str, int]  # communication steps in one step of a component, by component, if more than one
     remarks: tuple[str, ...] = ()
     drive: Drive | None = None
     elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
@@ -58,7 +59,7 @@ class PreparedSystem:
 
     @property
     def assumptions(self) -> list[str]:
-        """Assumptions about undeclared dependencies, one line for each component with its FMU."""
+        """Assumptions about undeclared dependencies, a line for each component with its FMU."""
         return self.schedule.feedthrough.notes(self.network, self.algorithm)
 
     @property
@@ -68,12 +69,17 @@ class PreparedSystem:
 
     @property
     def printers(self) -> list[str]:
-        """Components that may print in a child process: foreign FMUs and those with external state, else all."""
+        """Components that may print in a child process: foreign FMUs and FMUs with external state or, if there are
+        none, all.
+        """
         fmus = self.network.fmus
         return [name for name, fmu in fmus.items() if not fmu.is_self_contained] or list(fmus)
 
     def of_flights(self) -> PreparedSystem:
-        """Return the data that simulations need, which can be sent to another process: no documents, no functions."""
+        """Return the system reduced to the data for simulations, which can be sent to another process.
+
+        Documents and functions are removed.
+        """
         description = self.network.description
         root = SystemElement(description.system.name, {}, [], description.system.line)
         network = replace(self.network, description=replace(description, system=root, annotations={}), systems={})
@@ -90,12 +96,12 @@ class PreparedSystem:
 
     @property
     def is_alone(self) -> bool:
-        """True if a process can simulate it only once at a time, since one of its FMUs allows no second instance."""
+        """True if a process cannot have two simulations of it, since one of its FMUs allows no second instance."""
         return any(fmu.is_alone for fmu in self.network.fmus.values())
 
     @property
     def flies_in_threads(self) -> bool:
-        """True if several threads of a process can simulate it in parallel, and are faster."""
+        """True if threads of a process can simulate it in parallel, and gain time by it."""
         return self.is_native and not self.is_alone
 
 
@@ -107,7 +113,7 @@ def prepare_system(
 ) -> PreparedSystem:
     """Read and check a system with its options, and with inputs over time if there are any. Raises InputError.
 
-    ``loaded`` caches FMUs by place, so that a system prepared repeatedly reads them only once.
+    ``loaded`` caches FMUs by label, so that they are read only once if a system is prepared repeatedly.
     """
     options = options or SystemOptions()
     with no_collection(), chdir(options.folder):
@@ -176,7 +182,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
 
 
 def _check_settings(network: Network, fmus: ComponentFmus) -> SystemSettings:
-    """Return the settings of a network, after checking it with them. Raises InputError."""
+    """Return the settings of a network, after checking the network with them. Raises InputError."""
     archive, options = fmus.archive, fmus.options
     assignments = [each for name, (_, retired) in fmus.retired.items() for each in retired.assignments(name)]
     assignments += fmus.assignments
@@ -194,7 +200,7 @@ def _check_settings(network: Network, fmus: ComponentFmus) -> SystemSettings:
 
 
 def _refuse_seconds(network: Network) -> None:
-    """Reject an FMU in two components if a process can have only one instance of it."""
+    """Reject an FMU that is used by two components if a process can have only one instance of it."""
     first: dict[str, str] = {}
     for name, fmu in network.fmus.items():
         if fmu.is_alone and fmu.digest in first:

@@ -1,4 +1,4 @@
-"""Order in which FMUs are stepped, from the direct dependencies of their outputs."""
+"""Order in which FMUs are stepped, derived from the direct dependencies of their outputs."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from ....common.errors import InputError
 from .feedthrough import Dependencies, Feedthrough, cut_loops
 from .network import Network, Node, NodeLink
 
-Edge = tuple[Node, Node]  # an output, and another component's input to which it is connected
+Edge = tuple[Node, Node]  # an output, and the input of another component to which it is connected
 
 
 @dataclass
 class Schedule:
-    """Order of components: ``sources_first`` (S) have no direct feedthrough, ``followers`` (F) have.
+    """Order of components: ``sources_first`` have no direct feedthrough, ``followers`` have direct feedthrough.
 
-    ``initial_order`` settles the initialisation, with followers repeated if necessary. ``late`` lists connections read
-    one step late because two FMUs wait for each other, although no two of their variables do. ``feedthrough`` are the
-    dependencies that determine the order, with the initial loops that are cut.
+    In ``initial_order`` followers are repeated as often as necessary to settle the initialisation. ``late`` lists
+    connections that are read one step late because two FMUs wait for each other, although no two of their variables do.
+    ``feedthrough`` contains the dependencies that determine the order, and the initial loops that are cut.
     """
 
     sources_first: list[str]
@@ -32,9 +32,10 @@ class Schedule:
 
 @dataclass
 class _Order:
-    """Order of components without direct feedthrough, then of the others, each after those that it reads.
+    """Order of components: first those without direct feedthrough, then the others, each after the components that it
+    reads.
 
-    ``late`` are the connections against this order.
+    ``late`` lists the connections against this order.
     """
 
     sources: list[str]
@@ -48,10 +49,10 @@ class _Order:
 
 
 def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "sequential") -> Schedule:
-    """Return the order of the components. Raises InputError for an algebraic loop, with its cycle.
+    """Return the order of the components. Raises InputError for an algebraic loop, and names its cycle.
 
-    Jacobi's algorithm reads every connection a step late: its initial loops are cut as well, with values passed along
-    them once and not solved for. Loops through undeclared dependencies are cut in any algorithm.
+    Jacobi's algorithm reads every connection a step late: its initial loops are cut, too, and values are passed along
+    them once instead of being solved for. Loops through undeclared dependencies are cut in every algorithm.
     """
     if algorithm == "sequential":
         _check_loops(network, feedthrough.stepping)
@@ -64,10 +65,10 @@ def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "
 
 
 def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettled: Collection[str] = ()) -> _Order:
-    """Return the order that dependencies require; inputs in ``unsettled`` need not wait for their sources.
+    """Return the order required by dependencies; inputs in ``unsettled`` need not wait for their sources.
 
-    ``cuts_any``: if FMUs wait for each other and every late connection would affect an output, one is late
-    nevertheless.
+    If FMUs wait for each other and every late connection would affect an output, one connection is made late
+    nevertheless if ``cuts_any``.
     """
     followers = [name for name in network.fmus if any(direct[name].values())]
     follows = set(followers)
@@ -97,7 +98,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
                 ) from None
             edges.remove(broken)
             late.append(broken)
-    for edge in list(late):  # a later one may have opened the same cycle
+    for edge in list(late):  # a connection found later may already break the same cycle
         with contextlib.suppress(CycleError):
             order = _order(followers, [*edges, edge])
             edges.append(edge)
@@ -106,7 +107,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
 
 
 def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
-    """Return the followers, each after those that it reads. Raises CycleError."""
+    """Return the followers, each after the followers that it reads. Raises CycleError."""
     graph: dict[str, set[str]] = {name: set() for name in followers}
     for start, end in edges:
         graph[end.component or ""].add(start.component or "")
@@ -123,7 +124,7 @@ def origin(network: Network, link: NodeLink) -> Node:
 
 def _check_loops(network: Network, direct: Dependencies) -> None:
     graph: dict[str, set[str]] = {}
-    # an input on which no output depends directly ends every path
+    # paths end at inputs on which no output depends directly
     passed_on = {component: set().union(*outputs.values()) for component, outputs in direct.items()}
     for link in network.links():
         target = link.target
@@ -147,7 +148,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
 
 
 def _breakable(cycle: list[str], edges: Collection[Edge], direct: Dependencies) -> Edge | None:
-    """Return a connection into a component of the cycle none of whose outputs along the cycle depends on it."""
+    """Return a connection to a component of the cycle that affects none of the component's outputs along the cycle."""
     for position in range(len(cycle) - 1):
         before, here = cycle[position], cycle[position + 1]
         after = cycle[position + 2] if position + 2 < len(cycle) else cycle[1]

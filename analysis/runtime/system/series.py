@@ -30,8 +30,8 @@ TRUTHS = {"true": 1.0, "false": 0.0}
 class InputSeries:
     """Samples of inputs: ``time`` [n] (s, never decreasing) and ``columns`` by input name, float64 [n] each.
 
-    ``file`` names their source in messages; ``lines`` are the line numbers of samples, empty for arrays; ``sha256`` is
-    that of the file, or of names and numbers.
+    ``file`` is the name of their source in messages. ``lines`` contains the line numbers of samples, and is empty for
+    arrays. ``sha256`` is the digest of the file, or of names and numbers.
     """
 
     file: str
@@ -41,7 +41,7 @@ class InputSeries:
     lines: Sequence[int] = ()
 
     def place(self, row: int, name: str) -> str:
-        """Return the position of a number for messages."""
+        """Return the position of a sample's number, as text for messages."""
         return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
 
 
@@ -110,7 +110,7 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
 
 
 def _number(file: str, line: int, name: str, text: str) -> float:
-    """Return a cell's number; True and False, as FMPy writes Booleans, are 1 and 0."""
+    """Return the number in a cell; True and False, as written by FMPy for Booleans, are 1 and 0."""
     try:
         return TRUTHS.get(text.strip().lower(), math.nan) if text.strip().lower() in TRUTHS else float(text)
     except ValueError as error:

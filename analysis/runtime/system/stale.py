@@ -18,19 +18,21 @@ from ..ssp.reading import read_description
 from .assignments import single_value
 from .options import SystemOptions
 
-GAINS = SYSTEMS / "entry_attitude"  # its parameter sets write the component as `regulator`
+GAINS = SYSTEMS / "entry_attitude"  # its parameter sets use the component name `regulator`
 
 
 @dataclass(frozen=True)
 class Retired:
-    """Replacement of a retired FMU: ``block`` with ``values`` of its parameters or those of ``parameter_set``."""
+    """Replacement of a retired FMU: ``block`` with ``values`` of its parameters, or with the values of
+    ``parameter_set``.
+    """
 
     block: str
     values: Mapping[str, SetValue] = field(default_factory=dict)
     parameter_set: str | None = None
 
     def assignments(self, component: str) -> Iterator[Assignment]:
-        """Yield the values for a component that used the retired FMU."""
+        """Yield the parameter values for a component that used the retired FMU."""
         for name, value in self.values.items():
             yield single_value(f"{component}.{name}", value)
         if self.parameter_set is not None:
@@ -57,7 +59,7 @@ RETIRED = {
 
 
 def find_retired(name: str, system: Path) -> Retired | None:
-    """Return the replacement of a retired FMU by its block's name, or None; FMUs of users may have such names."""
+    """Return the replacement of a retired FMU by its block's name, or None if a user has an FMU of this name."""
     retired = RETIRED.get(name)
     if retired is None or find_fmu(name, system=system) is not None:
         return None
@@ -65,9 +67,9 @@ def find_retired(name: str, system: Path) -> Retired | None:
 
 
 def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str, Iterable[str]]) -> list[str]:
-    """Return a line for each source file newer than the FMUs built from it, and for each retired name.
+    """Return a line for each source file that is newer than the FMUs built from it, and for each retired name.
 
-    ``compare`` lists further FMUs for some components. Raises InputError as reading the system does.
+    ``compare`` lists further FMUs for some components. Raises InputError if the system cannot be read.
     """
     archive = open_system(system)
     if archive.is_fmu:
@@ -89,7 +91,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
 
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:
-    """Return the FMU file that a name denotes in a simulation, or None."""
+    """Return the FMU file that a simulation uses for a name, or None."""
     if names_fmu(name) or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
     return find_fmu(name, FLAVOURS if flavour is None else (flavour,), system)

@@ -10,11 +10,11 @@ from ..ssp.archive import OSP_SUFFIX
 from .network import Network
 from .options import STEP_ROUNDING, SystemOptions
 
-LONGEST_PERIOD = 10_000  # communication steps of a component's step
+LONGEST_PERIOD = 10_000  # most communication steps in a component's step
 
 
 class MissingStopTimeError(InputError):
-    """Missing stop time: neither the system nor the options state one.
+    """Stop time that is stated neither by the system nor by the options.
 
     ``earliest`` (s) is the end of the first communication step.
     """
@@ -69,7 +69,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
 
 
 def component_periods(network: Network, options: SystemOptions, step: float) -> dict[str, int]:
-    """Return the number of communication steps in each component's own step, if more than one.
+    """Return the number of communication steps in each component's own step, for components with more than one.
 
     A step that is not a multiple of the communication step ``step`` (s) is rounded down, as in libcosim, with a remark.
     Raises InputError.
@@ -94,7 +94,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
 
 
 def _read_step(network: Network) -> float | None:
-    """Return the step (s) of the description, the shortest one if inner systems have steps."""
+    """Return the step (s) of the description, or the shortest step if inner systems have their own."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])
 
@@ -107,7 +107,7 @@ def _shortest_proposal(network: Network) -> float | None:
 
 
 def _step_of_system(network: Network, component: str) -> float | None:
-    """Return the step (s) of the innermost system around a component that states one."""
+    """Return the step (s) stated by the innermost system around a component."""
     path = component
     while "." in path:
         path = path[: path.rindex(".")]

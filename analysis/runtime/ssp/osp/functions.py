@@ -1,4 +1,4 @@
-"""Functions of an OspSystemStructure.xml, all of them linear, with their inputs and outputs.
+"""Functions in an OspSystemStructure.xml, which are all linear, with their inputs and outputs.
 
 libcosim evaluates them at every communication point, after outputs are read and before inputs are set.
 """
@@ -27,7 +27,7 @@ class FunctionError(Exception):
 
 @dataclass
 class TransformedSum:
-    """Transformed sum of inputs. Each signal has ``dimension`` variables; an input is None until it is connected."""
+    """Sum of transformed inputs. Each signal has ``dimension`` variables; an input is None until it is connected."""
 
     name: str
     dimension: int
@@ -35,7 +35,7 @@ class TransformedSum:
     inputs: dict[str, list[Point] | None]
 
     def connect_input(self, signal: str, points: list[Point]) -> None:
-        """Connect an input to variables. Raises FunctionError."""
+        """Connect an input to the variables that drive it. Raises FunctionError."""
         if signal not in self.inputs:
             raise FunctionError(f"{self.name} has no signal {signal}", f"use {', '.join(self.inputs)} or {OUT}")
         if self.inputs[signal] is not None:
@@ -43,7 +43,7 @@ class TransformedSum:
         self.inputs[signal] = self._check(points)
 
     def connect_output(self, points: list[Point]) -> list[tuple[Point, list[Point]]]:
-        """Return the variables that the output is connected to, each with its summands. Raises FunctionError."""
+        """Return the variables to which the output is connected, each with its summands. Raises FunctionError."""
         sources = []
         for signal, connected in self.inputs.items():
             if connected is None:

@@ -1,4 +1,4 @@
-"""OspModelDescription.xml: groups of variables that one connection joins."""
+"""OspModelDescription.xml: groups of variables that a single connection joins."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ SUFFIX = "_OspModelDescription.xml"
 
 
 def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, list[str]]:
-    """Return the names of variables by group, for the FMU ``source`` that ``element`` names.
+    """Return the names of variables by group, for the FMU ``source`` to which ``element`` refers.
 
-    The file is searched as libcosim does: under the name of the FMU's model, in the folder of the system's description,
-    then in that of the FMU; and under the FMU's file name. Raises InputError.
+    The file is searched as libcosim does: under the name of the FMU's model, first in the folder of the system's
+    description, then in the folder of the FMU; and under the FMU's file name. Raises InputError.
     """
     candidates = list(dict.fromkeys(_candidates(archive, source, element)))
     file = next((file for file in candidates if archive.has(file)), candidates[0])

@@ -36,7 +36,7 @@ VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
 def read_osp(data: bytes, file: str, archive: SystemArchive) -> SystemDescription:
-    """Return the description in the document, one of an archive's files. Raises InputError."""
+    """Return the description in the document, which is one of an archive's files. Raises InputError."""
     return _StructureReader(file, archive).read(parse_xml(data, file))
 
 
@@ -139,7 +139,7 @@ class _StructureReader:
     def connections(self, elements: list[etree._Element]) -> None:
         outputs: list[tuple[TransformedSum, list[Point], etree._Element]] = []
         for element in elements:
-            if bond := element.get("powerBond"):  # libcosim, too, joins the variables and no more
+            if bond := element.get("powerBond"):  # as in libcosim, a bond only joins the variables
                 self.notes.append(f"powerBond {bond} (line {element.sourceline}): without effect in fixedStep")
             ends = list(element.iterchildren(etree.Element))
             kinds = [tag(end) for end in ends]
@@ -191,7 +191,7 @@ class _StructureReader:
         self.system.connections.append(Connection(start, end, False, transformation, line, tuple(added)))
 
     def connect_variables(self, ends: list[etree._Element], connection: etree._Element) -> None:
-        """Connect two variables, or those of two groups pairwise in the order of their model descriptions."""
+        """Connect two variables, or the variables of two groups pairwise in the order of their model descriptions."""
         sides = [self.points(end) for end in ends]
         if len(sides[0]) != len(sides[1]):
             problem = f"groups of {len(sides[0])} and {len(sides[1])} variables"
@@ -200,7 +200,7 @@ class _StructureReader:
             self.connect([start], stop, IDENTITY, connection.sourceline)
 
     def points(self, end: etree._Element) -> list[Point]:
-        """Return a variable, or the variables of a group."""
+        """Return a variable, or all variables of a group."""
         simulator, name = self.variable(end)
         if tag(end) == "Variable":
             return [(simulator, name)]

@@ -1,1 +1,1 @@
-"""Conversion of SSP 1.0 documents to SSP 2.0: one connector, one connection and one list of values for an array."""
+"""Conversion of SSP 1.0 documents to SSP 2.0: a single connector, connection and list of values for each array."""

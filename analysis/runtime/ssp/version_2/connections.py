@@ -1,4 +1,4 @@
-"""Merges connections of an array's elements into connections of the array."""
+"""Conversion of connections between elements of arrays to connections between arrays."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from ..dimensions import ELEMENT, Shape, indices
 from ..documents import child, children
 from .trees import content, remove
 
-Arrays = Mapping[tuple[str, str], Shape]  # by element, "" for the system itself, and connector
+Arrays = Mapping[tuple[str, str], Shape]  # by element ("" for the system itself) and connector
 SIDES = ("start", "end")
 
 
 def merge_connections(system: etree._Element, arrays: Arrays) -> None:
     """Replace connections of elements of ``arrays`` by connections of the arrays, in place.
 
-    One connection is enough if all elements are connected with those of an array of the same shape, in order and with
-    equal attributes. Others refer to elements by index.
+    A single connection is sufficient if all elements are connected with those of an array of the same shape, in order
+    and with equal attributes. Other connections refer to elements by index.
     """
     groups: dict[tuple[bytes, Shape, Shape], list[tuple[etree._Element, Shape, Shape]]] = {}
     for connection in children(child(system, "ssd:Connections"), "ssd:Connection"):
@@ -42,7 +42,7 @@ def merge_connections(system: etree._Element, arrays: Arrays) -> None:
 
 
 def _end(connection: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
-    """Return element, connector and index of an end of a connection; the index is () for a scalar."""
+    """Return element, connector and index at an end of a connection; the index is () for a scalar."""
     element, name = connection.get(f"{side}Element", ""), connection.get(f"{side}Connector", "")
     match = ELEMENT.fullmatch(name)
     if match and (element, match["array"]) in arrays:

@@ -1,4 +1,4 @@
-"""Merges connectors of an array's elements into one connector of the array."""
+"""Conversion of connectors of an array's elements to one connector of the array."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from .trees import add_dimensions, group_elements, is_whole, remove
 def merge_connectors(owner: etree._Element, arrays: Mapping[str, Shape] | None) -> dict[str, Shape]:
     """Replace connectors of elements by one connector for each array, in place; return the shapes of these arrays.
 
-    ``arrays`` are those of a component's FMU: one element is enough, since the FMU has no variable named like an
-    element. None stands for a system, whose arrays must have all elements with equal attributes.
+    ``arrays`` are the arrays of a component's FMU, of which one element is sufficient, since the FMU has no variable
+    named like an element. It is None for a system; all elements of its arrays must be present and have equal
+    attributes.
     """
     connectors = children(child(owner, "ssd:Connectors"), "ssd:Connector")
     shapes = array_shapes(connector.get("name", "") for connector in connectors) if arrays is None else arrays

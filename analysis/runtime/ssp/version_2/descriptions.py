@@ -1,4 +1,4 @@
-"""Converts a System Structure Description of SSP 1.0 to SSP 2.0."""
+"""Conversion of a System Structure Description of SSP 1.0 to SSP 2.0."""
 
 from __future__ import annotations
 
@@ -15,13 +15,15 @@ from .connectors import merge_connectors
 from .trees import remove, to_version_2
 from .values import merge_values
 
-ArraysOf = Callable[[str], Mapping[str, Shape]]  # the arrays of the FMU of a source
+ArraysOf = Callable[[str], Mapping[str, Shape]]  # returns the arrays of the FMU of a source
 EnumerationsOf = Callable[[str], Collection[str]]
 
 
 @dataclass(frozen=True)
 class BoundSet:
-    """Parameter set file bound by a description, with the arrays that its names may mean; none if it is mapped."""
+    """Parameter set file bound by a description, and the arrays to which its names may refer; no arrays if it is
+    mapped.
+    """
 
     source: str
     arrays: Mapping[str, Shape]
@@ -30,10 +32,11 @@ class BoundSet:
 def convert_description(
     description: etree._Element, arrays_of: ArraysOf, enumerations_of: EnumerationsOf = lambda source: ()
 ) -> tuple[etree._Element, list[BoundSet]]:
-    """Convert a system to SSP 2.0; return it and the bound files, that of the whole system first.
+    """Convert a system to SSP 2.0; return it with its bound parameter set files.
 
-    ``arrays_of`` returns the arrays of the FMU of a source (FMI 3.0); an FMU of FMI 2.0 has a variable for each
-    element, and SSP requires a connector for each variable. ``enumerations_of`` returns the FMU's enumerations.
+    The first entry, with an empty source, contains the arrays of the system itself. ``arrays_of`` returns the arrays of
+    the FMU of a source (FMI 3.0); an FMU of FMI 2.0 has a variable for each element, and SSP requires a connector for
+    each variable. ``enumerations_of`` returns the FMU's enumerations.
     """
     root = deepcopy(description)
     to_version_2(root)
@@ -45,7 +48,7 @@ def convert_description(
 
 
 def _leave_types_to_fmus(root: etree._Element, enumerations_of: EnumerationsOf) -> None:
-    """Remove the type Integer from connectors that are enumerations in their FMU, in place."""
+    """Remove the type Integer from connectors of variables that are enumerations in the FMU, in place."""
     for component in root.iter(f"{{{NAMESPACES['ssd']}}}Component"):
         names = enumerations_of(component.get("source", ""))
         for connector in children(child(component, "ssd:Connectors"), "ssd:Connector"):
@@ -55,7 +58,7 @@ def _leave_types_to_fmus(root: etree._Element, enumerations_of: EnumerationsOf) 
 
 
 def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[BoundSet]) -> dict[str, Shape]:
-    """Convert a system and its inner systems in place; collect its arrays by hierarchical name."""
+    """Convert a system and its inner systems in place; return its arrays by hierarchical name."""
     outer = merge_connectors(system, None)
     connected: dict[tuple[str, str], Shape] = {("", name): shape for name, shape in outer.items()}
     known = dict(outer)
@@ -95,7 +98,7 @@ def _convert_bindings(owner: etree._Element, known: Mapping[str, Shape]) -> Iter
         prefix = binding.get("prefix", "")
         arrays = {name.removeprefix(prefix): shape for name, shape in known.items() if name.startswith(prefix)}
         if child(binding, "ssd:ParameterMapping") is not None:
-            arrays = {}  # whose entries name elements
+            arrays = {}  # the entries of a mapping name elements
         values = child(binding, "ssd:ParameterValues")
         if binding.get("source") is not None:
             yield BoundSet(binding.get("source", ""), arrays)

@@ -11,7 +11,7 @@ SCALAR = "ModelVariables/ScalarVariable"
 
 
 def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
-    """Return the shapes of the arrays of an FMU of FMI 3.0 at their start sizes; none for FMI 2.0."""
+    """Return the shapes of the arrays of an FMU of FMI 3.0, with the declared start sizes; empty for FMI 2.0."""
     if not description.get("fmiVersion", "").startswith("3."):
         return {}
     variables = description.findall("ModelVariables/*")

@@ -1,4 +1,4 @@
-"""Converts the files of an .ssp from SSP 1.0 to SSP 2.0."""
+"""Conversion of the files in an .ssp from SSP 1.0 to SSP 2.0."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ OTHERS = (".ssm", ".ssb")
 
 
 def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
-    """Return the files of a package by name, documents converted to SSP 2.0; ``label`` names it in errors.
+    """Return the files of a package by name, with documents converted to SSP 2.0; ``label`` is its name in errors.
 
     Raises InputError for a document that is not XML.
     """
@@ -46,7 +46,7 @@ def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
     converted = dict(files)
     by_set: dict[
         str, list[Mapping[str, Shape]]
-    ] = {}  # arrays that the names of a parameter set may mean, for each binding
+    ] = {}  # arrays to which the names of a parameter set may refer, for each binding
     whole: list[Mapping[str, Shape]] = []
     for name in files:
         if name.endswith(".ssd") and "/" not in name:

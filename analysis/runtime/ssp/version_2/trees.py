@@ -10,12 +10,12 @@ from lxml import etree
 from ..dimensions import ELEMENT, Shape, indices
 from ..documents import NAMESPACES, tag
 
-Groups = dict[str, dict[Shape, etree._Element]]  # by array, its elements by index
+Groups = dict[str, dict[Shape, etree._Element]]  # elements by index, by array
 RENAMED = {"Real": "Float64", "Integer": "Int32"}
 
 
 def content(element: etree._Element, without: Collection[str]) -> bytes:
-    """Return the canonical content of an element for comparison, ``without`` some attributes."""
+    """Return the canonical content of an element for comparison, ``without`` these attributes."""
     copy = deepcopy(element)
     copy.tail = None
     for name in without:
@@ -49,13 +49,13 @@ def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shap
 
 
 def is_whole(elements: Mapping[Shape, etree._Element], shape: Shape, without: Collection[str]) -> bool:
-    """Return True if all elements of an array are present, and equal ``without`` some attributes."""
+    """Return True if all elements of an array are present and, ``without`` these attributes, equal."""
     alike = len({content(element, without) for element in elements.values()}) == 1
     return alike and set(elements) == set(indices(shape))
 
 
 def add_dimensions(element: etree._Element, shape: Shape, types: Collection[str]) -> None:
-    """Insert an array's dimensions into a connector or a parameter, after its type, one of ``types``."""
+    """Insert an array's dimensions into a connector or a parameter, after its type, which is one of ``types``."""
     position = next((number + 1 for number, inner in enumerate(element) if tag(inner) in types), 0)
     for offset, size in enumerate(shape):
         dimension = etree.Element(f"{{{NAMESPACES['ssc']}}}Dimension", size=str(size))
@@ -63,7 +63,7 @@ def add_dimensions(element: etree._Element, shape: Shape, types: Collection[str]
 
 
 def to_version_2(root: etree._Element) -> None:
-    """Set version 2.0 and its type names in a document and nested ones, in place."""
+    """Set version 2.0 and its type names in a document and its nested documents, in place."""
     spaces = set(NAMESPACES.values())
     for element in root.iter(etree.Element):
         name = etree.QName(element)

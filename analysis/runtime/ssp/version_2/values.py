@@ -1,4 +1,4 @@
-"""Merges the values of an array's elements into one list of values."""
+"""Conversion of values of an array's elements to one list of values."""
 
 from __future__ import annotations
 

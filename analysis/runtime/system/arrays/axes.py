@@ -13,15 +13,16 @@ from ...ssp.names import elements, split_name, vectors
 from ..network import Network
 
 ANNOTATION = "org.perilune.frames"
-FRAME = re.compile(r"\(([^()]+) frame\)\s*$")  # with which descriptions of variables end
+FRAME = re.compile(r"\(([^()]+) frame\)\s*$")  # end of a variable's description
 DIMENSIONS = (2, 3)
 
 
 def read_frames(network: Network, substituted: Collection[str]) -> None:
     """Read the names of axes by frame, and of elements by signal, into a network. Raises InputError with the line.
 
-    A vector belongs to the frame that lists it, or to the frame whose name ends its FMU's description, as in ``(landing
-    site frame)``, if it has one element for each axis. ``substituted`` components may lack listed vectors.
+    A vector belongs to the frame that lists it, or to the frame whose name ends the vector's description in the FMU, as
+    in ``(landing site frame)``, if the vector has one element for each axis. Listed vectors may be missing in
+    ``substituted`` components.
     """
     annotation = network.description.annotations.get(ANNOTATION)
     if annotation is None:
@@ -30,7 +31,7 @@ def read_frames(network: Network, substituted: Collection[str]) -> None:
     children = reader.parts(reader.content(annotation, "Frames"), ("Frame", "Vector"))
     for element in children["Frame"]:
         reader.read_frame(element)
-    for element in children["Frame"]:  # listed vectors take precedence over described ones
+    for element in children["Frame"]:  # lists take precedence over descriptions
         reader.read_listed(element, "axes")
     for element in children["Vector"]:
         reader.attributes(element, ("signals", "elements"))
@@ -38,7 +39,7 @@ def read_frames(network: Network, substituted: Collection[str]) -> None:
 
 
 class FrameReader(AnnotationReader):
-    """Reader of the annotation; ``described`` are the elements of vectors, by the frame in their descriptions."""
+    """Reader of the annotation; ``described`` contains elements of vectors, by the frame in their descriptions."""
 
     def __init__(self, network: Network, substituted: Collection[str]) -> None:
         super().__init__(network.file)
@@ -51,7 +52,7 @@ class FrameReader(AnnotationReader):
         self.listed: set[str] = set()
 
     def read_frame(self, element: etree._Element) -> None:
-        """Read a frame, and name the elements of the vectors whose descriptions refer to it."""
+        """Read a frame, and name the elements of the vectors with descriptions that refer to it."""
         name = self.attributes(element, ("name", "axes"), ("signals",))["name"]
         axes = self.names(element, "axes")
         if name in self.network.frames:
@@ -71,7 +72,7 @@ class FrameReader(AnnotationReader):
                 self.network.axes.update(zip(members, axes, strict=True))
 
     def read_listed(self, element: etree._Element, attribute: str) -> None:
-        """Name the elements of the vectors that an element lists as ``signals``."""
+        """Name the elements of the vectors that an XML element lists as ``signals``."""
         names = self.names(element, attribute)
         for signal in element.get("signals", "").split():
             members = one_dimensional(signal, self.known)
@@ -94,7 +95,7 @@ class FrameReader(AnnotationReader):
         return names
 
     def check_count(self, element: etree._Element, attribute: str, names: Collection[str], members: list[str]) -> None:
-        """Raise an error unless there is a name for each element of a vector."""
+        """Raise an error unless there is exactly one name for each element of a vector."""
         if len(names) != len(members):
             problem = (
                 f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
@@ -103,13 +104,13 @@ class FrameReader(AnnotationReader):
 
 
 def one_dimensional(name: str, known: Collection[str]) -> list[str]:
-    """Return the known elements ``name[1]``, ``name[2]`` ... of a vector; none for a matrix or a scalar."""
+    """Return the known elements ``name[1]``, ``name[2]`` ... of a vector; an empty list for a matrix or a scalar."""
     members = elements(name, known)
     return [] if members in ([], [name]) or "," in members[0][len(name) :] else members
 
 
 def described_vectors(network: Network, known: Collection[str]) -> dict[str, list[list[str]]]:
-    """Return the elements of vectors, grouped by the frame whose name ends the description of their variables."""
+    """Return the elements of vectors, grouped by the frame that is named at the end of their descriptions."""
     by_frame: dict[str, list[list[str]]] = {}
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
@@ -121,5 +122,5 @@ def described_vectors(network: Network, known: Collection[str]) -> dict[str, lis
 
 
 def names_of_axes(network: Network, signals: Iterable[str]) -> dict[str, str]:
-    """Return the axis names of those signals that have one."""
+    """Return the names of axes by signal, for the signals that have one."""
     return {name: network.axes[name] for name in signals if name in network.axes}

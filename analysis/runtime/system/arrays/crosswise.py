@@ -1,4 +1,6 @@
-"""Elements of two vectors that are connected in another order, although others are connected index by index."""
+"""Elements of two vectors that are connected in a different order, although other elements are connected index by
+index.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ Index = tuple[int, ...]
 def crosswise_notes(network: Network) -> list[str]:
     """Return a note for each connection x[2] -> y[1] if other elements of x and y are connected with equal indices.
 
-    Elements connected in increasing order (x[1] -> y[1], x[3] -> y[2]) and one element connected to all of y are
+    Connections in increasing order (x[1] -> y[1], x[3] -> y[2]), and of one element to all elements of y, are
     considered intended.
     """
     by_vectors: dict[tuple[str, str], list[tuple[Index, Index, NodeLink]]] = {}

@@ -1,4 +1,4 @@
-"""Expansion of array connectors and their connections into those of the elements."""
+"""Expansion of array connectors and their connections into connectors and connections of elements."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .sizes import Sizes, walk
 def expand_arrays(description: SystemDescription, sizes: Sizes) -> SystemDescription:
     """Return the description with scalar connectors ``x[1]`` or ``x[2,1]`` for an array x, and their connections.
 
-    ``sizes`` are those determined by structural parameters. A description without arrays is returned unchanged. Raises
-    InputError.
+    ``sizes`` are the dimensions determined by structural parameters. A description without arrays is returned
+    unchanged. Raises InputError.
     """
     if not any(_has_arrays(system) for _, system in walk(description.system)):
         return description
@@ -25,7 +25,7 @@ def expand_arrays(description: SystemDescription, sizes: Sizes) -> SystemDescrip
 
 
 def _has_arrays(system: SystemElement) -> bool:
-    """Return True if a system, without inner ones, has an array or a connection to an array's element."""
+    """Return True if a system, inner systems excluded, has an array or a connection to an array's element."""
     return (
         any(each.dimensions for owner in (system, *system.elements.values()) for each in owner.connectors.values())
         or any(each.dimensions for signals in system.dictionaries.values() for each in signals.values())
@@ -68,7 +68,7 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
 
 
 def _connections(description: SystemDescription, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
-    """Return the connections of the elements that a connection joins, both ends in the order of their indices."""
+    """Return the connections of elements that a connection stands for, in the order of the indices at both ends."""
     starts, part = _part(description, shapes, path, connection, connection.start, connection.start_indices)
     ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
     if part != other:

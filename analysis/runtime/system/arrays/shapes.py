@@ -11,17 +11,17 @@ from ...ssp.description import Component, Connection, Connector, Element, Point,
 from ...ssp.dimensions import Shape, array_shapes, text_of
 from .sizes import Sizes, walk
 
-Open = tuple[int | None, ...]  # a shape of which sizes may not be known
+Open = tuple[int | None, ...]  # a shape with sizes that may be unknown
 
 
 class Shapes:
-    """Shapes of all array connectors by hierarchical name. Raises InputError if one cannot be determined."""
+    """Shapes of all array connectors by hierarchical name. Raises InputError if a shape cannot be determined."""
 
     def __init__(self, description: SystemDescription, sizes: Sizes) -> None:
         self.description = description
         self.load = sizes.load
         self.of_fmus: dict[str, dict[str, Shape]] = {}
-        self.without_arrays: list[str] = []  # components of FMI 2.0, whose variables are scalars
+        self.without_arrays: list[str] = []  # components of FMI 2.0, which has only scalars
         shapes: dict[str, Open] = {}
         declared: dict[str, Connector] = {}
         for path, element in _elements(description.system):
@@ -59,12 +59,12 @@ class Shapes:
         return self.known.get(name_of(path, point), ())
 
     def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
-        """Return the error for an array's element that is also declared as a connector."""
+        """Return the error for an array's element that is declared as a connector, too."""
         where = second.at(path + name)
         return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
 
     def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
-        """Return the shape of an array in its component's FMU. Raises InputError if another one is declared."""
+        """Return the shape of an array in its component's FMU. Raises InputError if a different shape is declared."""
         fmu = self.load(name, component)
         if name not in self.of_fmus:
             self.of_fmus[name] = array_shapes(fmu.variables)
@@ -74,7 +74,7 @@ class Shapes:
         where = connector.at(f"{name}.{connector.name}")
         if actual is None:
             if math.prod(each or 0 for each in shape) == 0 and None not in shape:
-                return shape  # without an element, which an FMU has no name for
+                return shape  # an array without elements, for which an FMU has no names
             known = "is a scalar in" if connector.name in fmu.variables else "is not an array of"
             raise InputError(
                 self.description.file, where, f"{known} {fmu.label}", "correct its Dimensions or use another FMU"
@@ -88,7 +88,7 @@ class Shapes:
         return actual
 
     def _infer_sizes(self, shapes: dict[str, Open]) -> None:
-        """Fill in open sizes from the other ends of connections between whole arrays."""
+        """Infer unknown sizes from the other ends of connections between complete arrays."""
         ends = [
             (name_of(path, connection.start), name_of(path, connection.end))
             for path, connection in _connections(self.description)
@@ -114,7 +114,7 @@ def name_of(path: str, point: Point) -> str:
 
 
 def _elements(system: SystemElement, path: str = "") -> Iterator[tuple[str, Element]]:
-    """Yield all elements, after the prefix of their connectors' names."""
+    """Yield all elements, each after the prefix of its connectors' hierarchical names."""
     for outer, inner in walk(system, path):
         yield outer, inner
         for element in inner.elements.values():

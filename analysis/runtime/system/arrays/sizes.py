@@ -12,12 +12,12 @@ from ...ssp.parameter_sets import Assignment, read_binding
 from ...ssp.parameter_values import ParameterValue
 from ..fmu import Fmu
 
-SIZES = ("structuralParameter", "constant")  # kinds of connectors that give a size
+SIZES = ("structuralParameter", "constant")  # kinds of connectors that determine a size
 Load = Callable[[str, Component], Fmu]
 
 
 def walk(system: SystemElement, path: str = "") -> Iterator[tuple[str, SystemElement]]:
-    """Yield a system and its inner systems, after their paths: "" for the outermost, else with a trailing dot."""
+    """Yield each system after its path, which is "" for the outermost system and ends with a dot for inner systems."""
     yield path, system
     for element in system.elements.values():
         if isinstance(element, SystemElement):
@@ -27,12 +27,13 @@ def walk(system: SystemElement, path: str = "") -> Iterator[tuple[str, SystemEle
 def assigned_values(
     description: SystemDescription, archive: SystemArchive, assignments: Sequence[Assignment]
 ) -> dict[str, ParameterValue]:
-    """Return values of parameter sets and options by hierarchical name; later override earlier, outer inner ones.
+    """Return values of parameter sets and options by hierarchical name.
 
-    No FMU is needed: names are not looked up, and values are not converted. Raises InputError.
+    Later values override earlier ones, and outer values override inner ones. No FMU is needed: names are not checked,
+    and values are not converted. Raises InputError.
     """
     values: dict[str, ParameterValue] = {}
-    unmatched: list[str] = []  # flaws are for the reading that applies the values
+    unmatched: list[str] = []  # flaws are reported later, when the values are applied
     for path, system in sorted(walk(description.system), key=lambda pair: -pair[0].count(".")):
         for prefix, element in [(f"{path}{inner.name}.", inner) for inner in system.elements.values()] + [
             (path, system)
@@ -62,9 +63,9 @@ class Sizes:
         }
 
     def size(self, owner: Element, path: str, dimension: Dimension, array: str) -> int:
-        """Return the size of a dimension of ``array`` that a connector of the element ``owner`` determines.
+        """Return the size of a dimension of ``array`` that is determined by a connector of the element ``owner``.
 
-        ``path`` is the prefix of the owner's connectors. Raises InputError.
+        ``path`` is the prefix of the names of the owner's connectors. Raises InputError.
         """
         name = dimension.connector or ""
         where = f"{path}{array}, Dimension (line {dimension.line})"
@@ -78,7 +79,7 @@ class Sizes:
         return self._check(self._find_start(full) if assigned is None else assigned, full, where)
 
     def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
-        """Return the values of a component's structural parameters ``names`` that are set by connections.
+        """Return the values of those structural parameters ``names`` of a component that are set by connections.
 
         Raises InputError.
         """
@@ -112,7 +113,7 @@ class Sizes:
         return self._find_start(name) if declared is not None and declared.kind == "constant" else None
 
     def _find_start(self, name: str) -> object:
-        """Return a variable's start, as declared by a component's FMU."""
+        """Return the start value of a variable, as declared by a component's FMU."""
         component, _, short = name.rpartition(".")
         if component not in self.components:
             return None

@@ -1,1 +1,1 @@
-"""Different code under the same name, of which a process can load only one."""
+"""Different code of the same name, of which a process can load only one."""

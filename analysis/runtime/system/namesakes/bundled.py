@@ -12,11 +12,11 @@ from pathlib import Path
 from ..fmu import Fmu
 
 MODULE, LIBRARY = "module", "library"
-PYTHONFMU = "pythonfmu"  # the package that every FMU of pythonfmu brings
+PYTHONFMU = "pythonfmu"  # package in every FMU of pythonfmu
 BYTECODE = "__pycache__"
-EMBEDDED = (b"PyImport_", b"libpython")  # in the library of an FMU that runs Python in its importer's process
+EMBEDDED = (b"PyImport_", b"libpython")  # texts in the library of an FMU that runs Python in its importer's process
 LIBRARY_SUFFIXES = (".so", ".dll", ".dylib")
-MOST_FMUS = 256  # kept at once
+MOST_FMUS = 256  # most FMUs in the cache
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Bundled:
 
 
 def bundled_by(fmu: Fmu) -> tuple[Bundled, ...]:
-    """Return the modules and libraries that an FMU brings into a process."""
+    """Return the modules and libraries that an FMU loads into a process."""
     return _list_bundled(fmu.digest, fmu.folder, fmu.binary)
 
 
@@ -61,7 +61,7 @@ def module_digest(path: Path) -> str:
 
 
 def _module_name(path: Path) -> str:
-    """Return the name under which Python imports a file or a folder, "" if it does not."""
+    """Return the name under which Python imports a file or a folder, or "" if it cannot be imported."""
     if path.is_dir():
         has_code = any(_suffix(file) for file in path.rglob("*"))
         return path.name if has_code and path.name.isidentifier() else ""
@@ -83,9 +83,9 @@ def _is_library(path: Path) -> bool:
 
 
 def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
-    """Yield the names under which the loader knows a library: its file name and its SONAME.
+    """Yield the names under which the dynamic loader knows a library: its file name and its SONAME.
 
-    Python modules are not included, since they are loaded by path.
+    Python modules are omitted, since they are loaded by path.
     """
     file, digest = path.relative_to(folder).as_posix(), module_digest(path)
     is_module = _suffix(path) not in ("", ".so") or any(path.parent.glob("*.py"))
@@ -95,8 +95,8 @@ def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
 
 
 def _read_soname(path: Path) -> str:
-    """Return the DT_SONAME of an ELF file, "" if it has none or is another type of file."""
-    from elftools.common.exceptions import ELFError  # which own FMUs do not need
+    """Return the DT_SONAME of an ELF file, or "" if there is none or the file is of another type."""
+    from elftools.common.exceptions import ELFError  # imported only for foreign FMUs
     from elftools.elf.dynamic import DynamicSegment
     from elftools.elf.elffile import ELFFile
 
@@ -106,4 +106,4 @@ def _read_soname(path: Path) -> str:
             tags = (tag for each in segments for tag in each.iter_tags("DT_SONAME"))
             return next((tag.soname for tag in tags), "")  # type: ignore[attr-defined]  # set by the tag's kind
         except (ELFError, ValueError, LookupError, TypeError, AttributeError, OverflowError, OSError):
-            return ""  # damaged: the loader refuses it, too
+            return ""  # damaged; the loader rejects it, too

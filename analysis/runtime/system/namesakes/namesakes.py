@@ -1,4 +1,4 @@
-"""Namesakes: different code under the same name, of which a process uses the first one loaded for all FMUs."""
+"""Namesakes: different code of the same name, of which a process uses the first one loaded for all FMUs."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .....common.errors import InputError
 from ..fmu import Fmu
 from .bundled import MODULE, Bundled, bundled_by, module_digest
 
-# The process that forks those in which foreign FMUs are loaded: they have its modules.
+# The process that forks the children in which foreign FMUs are loaded; they inherit its modules.
 SERVER = "perilune.analysis.runtime.process.server"
 MODULES = "import json, sys; print(json.dumps({k: getattr(m, '__file__', None) for k, m in list(sys.modules.items())}))"
 REMEDIES = {
     MODULE: "rename the module, or put it into a package of another name",
     "library": "give the library another file name and SONAME",
 }
-Files = Mapping[str, str | None]  # files of modules by name; None for those without a file
+Files = Mapping[str, str | None]  # files of modules by name, None for modules without a file
 
 
 class _Loaded(NamedTuple):
@@ -38,8 +38,8 @@ _loaded: dict[
 def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
     """Reject foreign FMUs that would use the code of another FMU or of Perilune. Raises InputError.
 
-    They are compared with each other, with the modules of the process that loads them and, if it is this one
-    (``in_process``), with all that it has ever loaded.
+    The FMUs' code is compared with each other's, with the modules of the process that loads them and, if this is the
+    current process (``in_process``), with all code that it has ever loaded.
     """
     present = dict(_loaded) if in_process else {}
     for fmu in fmus:
@@ -49,9 +49,9 @@ def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
 
 
 def note_loaded(fmu: Fmu) -> None:
-    """Note that this process, which is not a child, loads a foreign FMU.
+    """Note that this process, which is no child, loads a foreign FMU.
 
-    Raises InputError if namesakes of the FMU's code have been loaded.
+    Raises InputError if namesakes of the FMU's code have been loaded before.
     """
     if not fmu.is_own:
         _check(fmu, _loaded, _modules_here)
@@ -89,7 +89,7 @@ def _check_module(fmu: Fmu, module: Bundled, modules: Files) -> None:
 
 
 def _is_installed(name: str) -> bool:
-    """Return True if a module of this name exists outside FMUs, and so may be loaded already."""
+    """Return True if a module of this name exists outside FMUs, and so may already be loaded."""
     try:
         return name in sys.modules or find_spec(name) is not None
     except (ValueError, ImportError):
@@ -102,7 +102,7 @@ def _modules_here() -> Files:
 
 @cache
 def _modules_of_server() -> Files:
-    """Return the modules of the flight server, printed by a process with the same imports."""
+    """Return the modules of the flight server, as printed by a process with the same imports."""
     start = f"import sys; sys.path[:] = {sys.path!r}; import {SERVER}; {MODULES}"
     printed = subprocess.run([sys.executable, "-c", start], stdout=subprocess.PIPE, check=True).stdout
     modules: Files = json.loads(printed)

@@ -1,1 +1,1 @@
-"""Values before a simulation: collected settings, and those that connections pass on."""
+"""Values before a simulation: collected settings, and values that connections pass on."""

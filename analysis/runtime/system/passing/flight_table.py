@@ -1,4 +1,4 @@
-"""Inputs of consecutive simulations: the same parameters and faults with different values."""
+"""Inputs of consecutive simulations, which set the same parameters and faults to different values."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class FaultColumns:
-    """Fault in n simulations: whether it acts (``flies``), and its value and window, each of shape [n].
+    """Fault in n simulations: whether it acts (``flies``), its value and its window, each of shape [n].
 
     ``value`` is in the connector's unit, ``start`` and ``end`` are in s.
     """
@@ -23,7 +23,9 @@ class FaultColumns:
 
 @dataclass(frozen=True)
 class FlightTable:
-    """Inputs of n simulations: values of varied parameters by name [n], and all faults of the simulation in order."""
+    """Inputs of n simulations: values of varied parameters by name, [n] each, and all faults of the simulation in
+    order.
+    """
 
     flights: int
     values: Mapping[str, np.ndarray]

@@ -26,7 +26,7 @@ def pass_parameters(network: Network, settings: SystemSettings) -> None:
                 if before is not None and before != settings.variables[target]:
                     settings.replaced[target] = outermost, before
                 settings.origins[target] = f"{outermost} of {settings.node_origins.get(outermost, 'its FMU')}"
-    for link in network.links():  # into an input, or out of the system: there a parameter is a signal that stays
+    for link in network.links():  # connected to an input or out of the system, a parameter is a constant signal
         source = link.source
         if source.kind in PARAMETERS and source.component is None and not link.is_parameter:
             brought = _find_passed_value(network, settings, source)
@@ -56,12 +56,12 @@ def _find_passed_value(network: Network, settings: SystemSettings, node: Node) -
 
 
 def _number(text: str, node: Node) -> float | str:
-    """Return a constant's value in the form of `SystemSettings.nodes`."""
+    """Return a constant's value as in `SystemSettings.nodes`."""
     return text if node.type_name == "String" else float({"true": "1", "false": "0"}.get(text.lower(), text))
 
 
 def _pass_on(network: Network, link: NodeLink, value: float | str) -> float | str:
-    """Return a parameter's value after a connection."""
+    """Return a parameter's value after its transfer over a connection."""
     if isinstance(value, str):
         return value
     if not link.transformation.table:
@@ -79,7 +79,7 @@ def _pass_on(network: Network, link: NodeLink, value: float | str) -> float | st
 def numbers(network: Network, link: NodeLink) -> list[tuple[float, float]]:
     """Return a connection's mapping as numbers: Booleans as 0 and 1, enumeration items as their values.
 
-    Returns an empty list without a mapping.
+    The list is empty if there is no mapping.
     """
     transformation = link.transformation
     kind = VALUE_TYPES[transformation.kind][0]

@@ -10,11 +10,11 @@ from ...ssp.parameter_values import ParameterValue
 
 @dataclass
 class SystemSettings:
-    """Values by (component, variable), those of system connectors by name, and the ``origins`` of both.
+    """Initial values of a system, by (component, variable) and by system connector, with the ``origins`` of both.
 
-    ``left_out`` is the origin of each value that a mapping omits, by the name to which it would apply without the
-    mapping. ``chosen`` are values of options; ``replaced`` are, by component and variable, the system parameter that
-    replaced a value, and that value.
+    ``left_out`` contains the origin of each value that a mapping omits, by the name to which the value would otherwise
+    apply. ``chosen`` lists values from options. ``replaced`` maps (component, variable) to the system parameter that
+    replaced a value, and to the replaced value.
     """
 
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)

@@ -22,7 +22,7 @@ def convert_units(network: Network) -> None:
             raise network.refuse(link.where, problem, "correct the unit of one end")
         for node in (source, target):
             check_offset(network, node, source.unit, target.unit, network.file, link.where)
-        connection = link.line or link.where  # the elements of an array have one line
+        connection = link.line or link.where  # elements of an array share a line
         if _disagree(source.unit, target.unit) and connection not in noted:
             noted.add(connection)
             relative, other = (source, target) if source.unit.is_relative else (target, source)
@@ -32,7 +32,7 @@ def convert_units(network: Network) -> None:
 
 
 def check_offset(network: Network, node: Node, source: Unit, target: Unit, file: str, where: str) -> None:
-    """Reject a conversion between units of different offsets at a connector for both values and differences.
+    """Reject a conversion between units with different offsets at a connector for both values and differences.
 
     Raises InputError.
     """
@@ -47,9 +47,9 @@ def _disagree(source: Unit, target: Unit) -> bool:
 
 
 def _settle_differences(network: Network) -> None:
-    """Set relativeQuantity of connectors without an FMU to that of the variables connected to them.
+    """Set relativeQuantity of connectors without an FMU from the variables connected to them.
 
-    Connectors of both kinds of variables are added to ``network.mixed``.
+    Connectors with variables of both kinds are added to ``network.mixed``.
     """
     if not any(node.unit is not None and node.unit.is_relative for node in network.nodes.values()):
         return
@@ -70,7 +70,9 @@ def _settle_differences(network: Network) -> None:
 
 
 def _group(neighbours: dict[str, list[Node]], first: str) -> tuple[set[str], set[bool]]:
-    """Return the connectors without an FMU connected to ``first``, and the relativeQuantity of variables around."""
+    """Return the connectors without an FMU that are connected to ``first``, and the relativeQuantity of adjacent
+    variables.
+    """
     group, kinds, pending = {first}, set[bool](), [first]
     while pending:
         for node in neighbours[pending.pop()]:
