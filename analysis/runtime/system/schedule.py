@@ -67,8 +67,8 @@ def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "
 def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettled: Collection[str] = ()) -> _Order:
     """Return the order required by dependencies; inputs in ``unsettled`` need not wait for their sources.
 
-    If FMUs wait for each other and every late connection would affect an output, one connection is made late
-    nevertheless if ``cuts_any``.
+    If FMUs wait for each other and every late connection would affect an output, the order is rejected, unless
+    ``cuts_any`` permits such a late connection. Raises InputError.
     """
     followers = [name for name in network.fmus if any(direct[name].values())]
     follows = set(followers)
