@@ -1,7 +1,7 @@
 """Bundles: ports that are connected together, declared once for all sources and targets.
 
     class ThrustCommand(Bundle):
-        thrust_acceleration = Port(0.0, unit="m/s2", description="commanded thrust over mass")
+        thrust_acceleration = Port(0.0, unit="m/s2", description="commanded thrust acceleration (thrust over mass)")
         burn_duration = Port(0.0, unit="s", description="commanded burn duration")
 
     command = Outputs(ThrustCommand, direct=True)

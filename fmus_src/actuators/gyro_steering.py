@@ -45,7 +45,7 @@ class GyroSteering(Block, interface=True):
         0.0,
         unit="s",
         minimum=0.0,
-        description="lead time from the sample to the instant at which the gyros give the commanded torque exactly",
+        description="lead time from the sample to the instant at which the gyros produce exactly the commanded torque",
     )
     damping = Parameter(
         0.05,
@@ -61,9 +61,7 @@ class GyroSteering(Block, interface=True):
         unit="1",
         minimum=0.0,
         maximum=0.45,
-        description=(
-            "amplitude of the deviations of the weighting matrices E and W from unit matrices, with a period of 4 s"
-        ),
+        description=("amplitude of the periodic deviations (4 s) of the weighting matrices E and W from unit matrices"),
     )
     gimbal_rate_limit = Parameter(
         1.0, unit="rad/s", minimum=0.0, description="largest magnitude of a gimbal rate; 0: no limit"

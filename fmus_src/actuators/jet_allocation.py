@@ -52,8 +52,8 @@ class JetAllocation(Block, interface=True):
     command_count = robot.COMMAND_COUNT.input("number of commands since the start; a change signals a new command")
     translation_period = robot.TRANSLATION_PERIOD.input("duration for which the new command holds")
     jet_thrust = robot.JET_THRUST.output(direct=True)
-    allocated_force = body.FORCE.output("force on the body that jet_thrust gives", direct=True)
-    allocated_torque = body.TORQUE.output("torque on the body that jet_thrust gives", direct=True)
+    allocated_force = body.FORCE.output("force on the body produced by jet_thrust", direct=True)
+    allocated_torque = body.TORQUE.output("torque on the body produced by jet_thrust", direct=True)
     status = Output(JetAllocationStatus, direct=True)
     start_time = sampling.START_TIME.state()
     strength = State(JetStrength)
@@ -62,11 +62,11 @@ class JetAllocation(Block, interface=True):
         unit="1",
         description="normalised attitude quaternion of the newest command, from body to inertial, scalar first",
     )
-    demand = State(Wrench, description="commanded wrench")
+    demand = State(Wrench, description="commanded force and torque")
     new_thrust = State([0.0] * 8, unit="N", description="thrust of each jet for the newest command")
     waiting = State(False, description="true: thrusts of the newest command not applied yet")
     due_time = State(0.0, unit="s", description="time at which the thrusts of the newest command are applied")
-    counted = State(0, description="command_count at which the newest command was accepted")
+    counted = State(0, description="command_count of the newest accepted command")
 
     def allocate(self) -> None:
         """Set new_thrust (N) and status from ``demand``."""

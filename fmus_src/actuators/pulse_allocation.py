@@ -45,7 +45,7 @@ class PulseAllocation(Block):
         unit="1",
         minimum=0.0,
         maximum=1.0,
-        description="fraction of the unfired impulse kept at a sample without demand",
+        description="fraction of the unfired impulse retained at a sample without demand",
     )
     mean = Parameter(False, description="true: mean torque over a sample period applied in place of pulses")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
@@ -54,20 +54,20 @@ class PulseAllocation(Block):
     pulse_count = body.PULSE_COUNT.output()
     mean_torque = body.TORQUE.output("mean torque applied in place of pulses", direct=True)
     remainder = body.PULSES.output(
-        "demanded and unfired impulse, as signed pulse lengths about x, y and z", direct=True
+        "demanded but unfired impulse, as signed pulse lengths about x, y and z", direct=True
     )
     status = Output(PulseStatus, direct=True)
     lengths = State(
         [0.0] * 3,
         vector=False,
         unit="s",
-        description="pulse lengths of the current sample about x, y and z, signed as the torque",
+        description="pulse lengths of the current sample about the body axes x, y and z, signed as the torque",
     )
     rests = State(
         [0.0] * 3,
         vector=False,
         unit="s",
-        description="demanded and unfired pulse lengths about x, y and z, signed as the torque",
+        description="demanded but unfired pulse lengths about the body axes x, y and z, signed as the torque",
     )
 
     def initialize(self) -> None:

@@ -57,7 +57,7 @@ class WheelAllocation(Block, interface=True):
     null_speed = Parameter(
         100.0,
         unit="rad/s",
-        description="wheel speed to which null motion leads without momentum; ignored by the minimax allocation",
+        description="wheel speed to which null motion leads at zero wheel momentum; ignored by the minimax allocation",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
         0.125, "sample period of the allocation; 0: a sample at every communication point"
@@ -65,20 +65,24 @@ class WheelAllocation(Block, interface=True):
     torque_command = body.TORQUE.input("commanded torque of the wheels on the body")
     wheel_speeds = satellite.WHEEL_SPEEDS.input()
     motor_torques = satellite.MOTOR_TORQUES.output(direct=True)
-    allocated_torque = body.TORQUE.output("torque on the body that motor_torques give", direct=True)
+    allocated_torque = body.TORQUE.output("torque on the body produced by motor_torques", direct=True)
     status = Output(WheelAllocationStatus, direct=True)
     axes = State(
         zeros(3, WHEELS),
         unit="1",
         frame="body",
-        description="unit spin axes of the available wheels, one per column; 0 for the others",
+        description="unit spin axes of the available wheels, one per column; 0 for unavailable wheels",
     )
-    inverse_axes = State(zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the matrix of spin axes")
+    inverse_axes = State(
+        zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the matrix of spin axes, one row per wheel"
+    )
     null = State(
-        [0.0] * 4, unit="1", description="unit vector of motor torques that give no torque on the body; 0: none"
+        [0.0] * 4,
+        unit="1",
+        description="unit vector of motor torques that produce no torque on the body; 0: no such vector",
     )
     wheel_torques = State(
-        [0.0] * 4, unit="N.m", description="motor torques for the commanded torque, without null motion"
+        [0.0] * 4, unit="N.m", description="motor torques that produce the commanded torque, without null motion"
     )
     speed_change = State([0.0] * 4, unit="rad/s", description="change of the wheel speeds to which null motion leads")
     invertible = State(False, description="true: spin axes of the available wheels span three axes")

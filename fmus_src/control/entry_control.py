@@ -44,7 +44,7 @@ class EntryControl(Block, interface=True):
     )
     trim_attack = Parameter(deg(-20.0), unit="rad", description="trim angle of attack of the capsule")
     dead_zone = Parameter(
-        0.0, unit="1", minimum=0.0, description="torque demand that is ignored, as a fraction of a jet's torque"
+        0.0, unit="1", minimum=0.0, description="largest torque demand that is ignored, as a fraction of a jet's torque"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period of the control", minimum=1e-3)
     measured_bank = entry.BANK.input("measured bank angle of the capsule")

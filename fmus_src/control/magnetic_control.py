@@ -58,7 +58,11 @@ class MagneticControl(Block):
     )
     field_period = Parameter(1.0, unit="s", minimum=1e-3, description="sample period T of the magnetometer")
     active_fraction = Parameter(
-        0.75, unit="1", minimum=0.0, maximum=1.0, description="fraction of the sample period T in which the dipole acts"
+        0.75,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="fraction of the sample period T during which the dipole acts",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
         0.25, "sample period of the control; 0: a sample at every communication point"

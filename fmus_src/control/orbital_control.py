@@ -40,7 +40,7 @@ class OrbitalControl(OrbitalBody, interface=True):
         [0.15, 0.12, 0.15],
         unit="1/s",
         minimum=0.0,
-        description="decay rates of the deviations from the decay of roll, yaw and pitch with angle_poles",
+        description="decay rates of the deviations of roll, yaw and pitch from their decay with angle_poles",
     )
     arrival_time = Parameter(
         35.0, unit="s", minimum=0.0, description="time from the start at which all angles are to be 0"

@@ -28,7 +28,7 @@ class StandardControl(EntryControl):
         description="magnitude to which the bank error is limited in the roll signal",
     )
     lead_time = Parameter(
-        2.0, unit="s", minimum=0.0, description="weight of the roll rate in the roll signal, a lead time"
+        2.0, unit="s", minimum=0.0, description="lead time: weight of the roll rate in the roll signal"
     )
     thresholds = Parameter(
         [deg(2.0), deg(1.0), deg(1.0)],

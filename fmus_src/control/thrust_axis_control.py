@@ -19,7 +19,7 @@ class ThrustAxisStatus(Enumeration):
     """Status of the commanded angular acceleration."""
 
     GOOD = member("good")
-    LIMITED = member("shortened to the limit")
+    LIMITED = member("reduced to the limit")
 
 
 class ThrustAxisControl(Block):

@@ -16,9 +16,11 @@ class JetHealth(Block):
         [1.0] * 6,
         unit="1",
         minimum=0.0,
-        description="ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z",
+        description="ratio of actual to nominal torque of the jets about the body axes +x, -x, +y, -y, +z, -z",
     )
-    jet_factor = entry.JET_FACTOR.output("ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z")
+    jet_factor = entry.JET_FACTOR.output(
+        "ratio of actual to nominal torque of the jets about the body axes +x, -x, +y, -y, +z, -z"
+    )
 
     def initialize(self) -> None:
         for k in range(6):

@@ -16,7 +16,7 @@ class EnvironmentStatus(Enumeration):
 
     GOOD = member("good")
     OUTSIDE_YEARS = member("outside 2025 to 2030, magnetic field extrapolated")
-    BELOW_AIR = member("below 100 km, density that of 100 km")
+    BELOW_AIR = member("below 100 km, air density of 100 km used")
     UNCHANGED = member("position or attitude not finite, or inside the body; outputs held")
 
 

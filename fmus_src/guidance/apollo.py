@@ -25,10 +25,15 @@ class ApolloGuidance(PolynomialGuidance):
     final_deceleration = Parameter(
         5.0, unit="m/s2", description="thrust acceleration at the target opposite to the forward axis"
     )
-    final_lift = Parameter(2.2, unit="m/s2", description="thrust acceleration at the target along z")
+    final_lift = Parameter(
+        2.2, unit="m/s2", description="thrust acceleration at the target along z of the landing site frame"
+    )
     target_jerk = Parameter(0.029, unit="m/s3", description="jerk at the target along the forward axis")
     freeze_time = Parameter(
-        10.0, unit="s", minimum=0.0, description="time to go below which it is no longer computed but counted down"
+        10.0,
+        unit="s",
+        minimum=0.0,
+        description="time to go below which the time to go is counted down instead of computed",
     )
     lead_time = Parameter(
         0.0, unit="s", minimum=0.0, description="lead time of the commanded thrust, compensating for delays"

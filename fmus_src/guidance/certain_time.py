@@ -32,7 +32,7 @@ class CertainTime(TerminalGuidance, interface=True):
     Source: D'Souza 1997, "An optimal guidance law for planetary landing"; choice between the times: this repository.
     """
 
-    braking = State(False, description="true: time to go computed from |A| T = 2 |B|")
+    braking = State(False, description="true: time to go from the braking equation |A| T = 2 |B|")
     least_effort = State(False, description="true: time to go of the last command minimises the control effort")
 
     def forget(self) -> None:

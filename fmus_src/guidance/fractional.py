@@ -39,7 +39,7 @@ class FractionalGuidance(PolynomialGuidance):
         [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="thrust acceleration at the target"
     )
     gain_choice = Parameter(GainChoice, description="choice of the exponents gamma and kr")
-    gamma = Parameter(1.0, unit="1", minimum=0.0, description="first exponent of the time to go")
+    gamma = Parameter(1.0, unit="1", minimum=0.0, description="first exponent gamma of the time to go")
     kr = Parameter(12.0, unit="1", minimum=0.0, description="gain kr of the position error")
 
     def shape(self, kr: float) -> DescentShape:

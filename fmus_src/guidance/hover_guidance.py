@@ -94,7 +94,7 @@ class HoverGuidance(HoverPlan):
         direct=True,
     )
     answered_plan = Output(
-        0, direct=True, description="plan_number that the outputs follow; in idle mode that of the last plan"
+        0, direct=True, description="plan_number of the plan that the outputs follow, in idle mode of the last plan"
     )
     plan_time = Output(0.0, unit="s", direct=True, description="time since the start of the plan")
     thrust_factor = Output(1.0, unit="1", direct=True, description="estimated ratio of actual to commanded thrust")

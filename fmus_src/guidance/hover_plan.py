@@ -75,7 +75,7 @@ class HoverPlan(Block, interface=True):
     mass = landing.MASS.input("estimated mass of the lander")
     attitude = landing.DIRECTION.input("measured direction of the thrust axis, unit vector")
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate of the thrust axis")
-    velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last sample period")
+    velocity_increment = landing.VELOCITY.input("measured time integral of specific force over the last sample period")
     status = Output(HoverStatus, direct=True)
     plan_kind = Output(PlanKind, direct=True, description="kind of the current plan")
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)

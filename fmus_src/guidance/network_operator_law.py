@@ -52,14 +52,16 @@ class NetworkOperatorLaw(Block, interface=True):
         minimum=0,
         maximum=23,
         fixed="its edges are decoded once",
-        description="network operator matrix by rows: unary operations above the diagonal, binary operations on it",
+        description=(
+            "network operator matrix by rows: unary operations above the diagonal, binary operations on the diagonal"
+        ),
     )
     q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters q of the control law")
     exp_saturation = Parameter(
         1,
         minimum=0,
         maximum=1,
-        description="value of exp for arguments above ln 1e8: 0 for 1e8, 1 for ln 1e8, which the published law needs",
+        description="value of exp for arguments above ln 1e8: 0 selects 1e8, 1 selects ln 1e8 as in the published law",
     )
     reference_altitude = Parameter(
         18148.0, unit="m", minimum=1.0, description="reference altitude h0 by which altitudes are scaled"

@@ -19,7 +19,7 @@ class PointingStatus(Enumeration):
     """Validity of the reference."""
 
     GOOD = member("good")
-    OLD_ORBIT = member("last sample of the orbit older than 5 s, carried on")
+    OLD_ORBIT = member("last orbit sample older than 5 s, propagated further")
     DEGENERATE = member("directions parallel, last reference held")
     NOT_FINITE = member("an input not finite, last reference held")
 

@@ -19,7 +19,9 @@ class Allocation(Block, interface=True):
     Frame: landing site. Directions are unit vectors at command_time; their rates extrapolate them to later times.
     """
 
-    thrust_acceleration = landing.THRUST_ACCELERATION.input("thrust over mass commanded by the guidance")
+    thrust_acceleration = landing.THRUST_ACCELERATION.input(
+        "thrust acceleration (thrust over mass) commanded by the guidance"
+    )
     demanded_direction = landing.DIRECTION.input(
         "commanded thrust direction of the guidance at demand_time, unit vector"
     )

@@ -25,10 +25,10 @@ class Navigation(Block, interface=True):
     position = landing.POSITION.input("true position of the lander relative to the landing site")
     velocity = landing.VELOCITY.input("true velocity of the lander relative to the landing site")
     specific_force = landing.ACCELERATION.input(
-        "true thrust over mass of the lander, mean since the last communication point"
+        "true specific force of the lander (thrust over mass), mean since the last communication point"
     )
     velocity_increment = landing.VELOCITY.input(
-        "measured integral of specific force between the last two inertial samples"
+        "measured time integral of specific force between the last two inertial samples"
     )
     inertial_count = Input(
         0, description="number of inertial sensor samples since the start; a change signals a new sample"

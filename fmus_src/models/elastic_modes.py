@@ -65,13 +65,16 @@ class ElasticModes(Block, interface=True):
     mode_displacements = Output([0.0] * MODES, description="modal displacements, m times square root of kg")
     modal_momenta = State([0.0] * MODES, description="modal momenta, m/s times square root of kg")
     translation = State(
-        zeros(3, MODES), description="participation matrix L of the modes in translation, one mode per column"
+        zeros(3, MODES),
+        description="participation matrix L of the modes in translation, one mode per column (body frame)",
     )
     rotation = State(
-        zeros(3, MODES), description="participation matrix D of the modes in rotation, one mode per column"
+        zeros(3, MODES), description="participation matrix D of the modes in rotation, one mode per column (body frame)"
     )
     inverse_modal_mass = State(zeros(MODES, MODES), description="inverse of the modal mass matrix")
-    modal_coupling = State(zeros(3, MODES), description="coupling matrix of the modes with the rotation of the body")
+    modal_coupling = State(
+        zeros(3, MODES), description="coupling matrix of the modes with the rotation of the body (body frame)"
+    )
 
     def start_modes(self, mass: float) -> bool:
         """Set the constant matrices for a total mass (kg); return False if the modes contain more than this mass."""

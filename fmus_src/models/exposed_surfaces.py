@@ -59,7 +59,10 @@ class ExposedSurfaces(SpaceModel, interface=True):
     surfaces = State(
         zeros(PLATES, COLUMNS),
         frozen=True,
-        description="flat plates with unit normals, by rows, columns as in plates; area 0 for a plate without a normal",
+        description=(
+            "flat plates with unit normals, one per row, columns as in plates; area 0 for a plate without a normal "
+            "(body frame)"
+        ),
     )
     has_surfaces = State(False, description="true: at least one plate, or the sphere, has an area")
     lacks_normal = State(False, description="true: a plate with an area has no normal and is ignored")

@@ -41,7 +41,9 @@ class OrbitalBody(Block, interface=True):
         minimum=1e-9,
         description="angular rate of the orbital frame relative to the inertial frame",
     )
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of the body's inertia matrix, 1/(kg m2)")
+    inverse_inertia = State(
+        [0.0] * 9, columns=3, description="inverse of the body's inertia matrix, 1/(kg m2) (body frame)"
+    )
 
     def weigh(self) -> bool:
         """Set inverse_inertia; return True if the inertia matrix is invertible."""

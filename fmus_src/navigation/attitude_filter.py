@@ -57,7 +57,7 @@ class AttitudeFilter(Block):
         FilterMethod, start=FilterMethod.KALMAN, description="estimation method of the attitude and rate errors"
     )
     mean_samples = Parameter(
-        2, minimum=1, description="number of sensor samples per mean: those of one attitude control period"
+        2, minimum=1, description="number of sensor samples per mean, as many as in one attitude control period"
     )
     inertia = Parameter(
         [812.0, 587.0, 910.0],
@@ -81,7 +81,9 @@ class AttitudeFilter(Block):
         0.0, unit="rad/s2", minimum=0.0, description="initial angular acceleration of the disturbance, 1 sigma per axis"
     )
     disturbance_noise = Parameter(
-        1e-18, minimum=0.0, description="spectral density of the noise in the disturbance's time derivative, rad2/s5"
+        1e-18,
+        minimum=0.0,
+        description="spectral density of the white noise in the disturbance's time derivative, rad2/s5",
     )
     jet_torque_error = Parameter(
         1e-4, unit="m", minimum=0.0, description="error of jet_torque per change of jet_force, 1 sigma per axis"

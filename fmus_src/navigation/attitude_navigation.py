@@ -49,7 +49,7 @@ class AttitudeNavigation(Block, interface=True):
         0.0,
         unit="rad",
         minimum=0.0,
-        description="error of a measured attitude about the star tracker's boresight, 1 sigma; 0: star_sigma",
+        description="error of a measured attitude about the star tracker's boresight, 1 sigma; 0: same as star_sigma",
     )
     sun_sigma = Parameter(
         0.02, unit="rad", minimum=1e-12, description="error of the measured direction to the Sun, 1 sigma per axis"

@@ -26,7 +26,7 @@ class EstimateMonitor(Block):
     estimated_position = landing.POSITION.input("estimated position of the lander relative to the landing site")
     estimated_velocity = landing.VELOCITY.input("estimated velocity of the lander relative to the landing site")
     estimate_covariance = landing.ESTIMATE_COVARIANCE.input(
-        "covariance of the errors of estimated position and velocity, SI units, upper triangle by rows"
+        "covariance of the errors of estimated position and velocity, SI units, upper triangle by rows (6 x 6)"
     )
     normalised_error_square = Output(
         0.0,

@@ -68,7 +68,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         0.005,
         unit="1",
         minimum=0.0,
-        description="altitude measurement error proportional to altitude, as a fraction of it, 1 sigma",
+        description="altitude measurement error proportional to altitude, as a fraction of the altitude, 1 sigma",
     )
     altitude_sigma = Parameter(
         1.0, unit="m", minimum=0.0, description="constant part of the altitude measurement error, 1 sigma"
@@ -92,13 +92,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
         5.0,
         unit="1",
         minimum=0.0,
-        description="largest innovation of an accepted scalar measurement, in standard deviations; 0: all accepted",
+        description=(
+            "largest innovation of an accepted scalar measurement, in standard deviations; 0: all measurements accepted"
+        ),
     )
     rejection_limit = Parameter(
         5, minimum=1, description="number of consecutive rejected samples of a sensor at which status becomes 2"
     )
     reacquire = Parameter(
-        False, description="true: covariance increased until a sensor rejected rejection_limit times is accepted"
+        False,
+        description="true: covariance increased until a sensor that was rejected rejection_limit times is accepted",
     )
     estimated_bias = landing.ACCELERATION.output("estimated bias of the measured specific force", direct=True)
     innovation_square = sampling.INNOVATION_SQUARE.output(

@@ -36,7 +36,7 @@ class InertialNavigation(Navigation, interface=True):
         [0.0] * 3,
         unit="m/s2",
         frame="landing site",
-        description="mean specific force assumed over the step before the last one",
+        description="mean specific force assumed over the step before the last step",
     )
     under_way = State(False, description="true: estimate propagated at least once")
     last_force = State(

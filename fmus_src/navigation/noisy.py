@@ -60,7 +60,9 @@ class NoisyNavigation(Navigation):
         zeros(6, 1), description="estimated position (m) and velocity (m/s) of the lander, landing-site axes"
     )
     covariance = State(
-        zeros(6, 6), frozen=True, description="covariance matrix of estimated position and velocity, SI units"
+        zeros(6, 6),
+        frozen=True,
+        description="covariance matrix of estimated position and velocity, SI units (landing site frame)",
     )
     start_time = sampling.START_TIME.state()
     position_fixes = State(0, description="number of position fixes since the start")

@@ -16,7 +16,7 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    z = State(0.0, unit="rad", description="state of the reduced-order observer: yaw - l roll")
+    z = State(0.0, unit="rad", description="state of the reduced-order observer: yaw minus l times roll")
 
     def begin(self) -> bool:
         self.z = self.reduced_yaw_pole / self.orbital_rate * self.measured_roll

@@ -43,7 +43,7 @@ class PointingMonitor(Block):
         [0.0, 0.0, 1.0],
         unit="1",
         frame="body",
-        description="boresight of which half_cone is computed, normalised by the block",
+        description="boresight whose deviation is half_cone, normalised by the block",
     )
     quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity of the body relative to the inertial frame")

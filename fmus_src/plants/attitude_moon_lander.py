@@ -50,7 +50,7 @@ class AttitudeMoonLander(MoonLander):
         deg(1.0),
         unit="rad/s2",
         minimum=0.0,
-        description="largest angular acceleration that the attitude jets can give; 0: no limit",
+        description="largest angular acceleration produced by the attitude jets; 0: no limit",
     )
     angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration of the thrust axis")
     mass = MoonLander.mass.with_start(600.0)

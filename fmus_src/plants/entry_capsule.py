@@ -115,8 +115,8 @@ class EntryCapsule(Block):
         columns=KNOTS,
         unit="1",
         description=(
-            "axial force coefficient along -x, one row per Mach number, columns for total angles of attack "
-            "from 0 to 60 deg"
+            "axial force coefficient along -x of the body frame, one row per Mach number, columns for total "
+            "angles of attack from 0 to 60 deg"
         ),
     )
     normal_coefficient = Parameter(
@@ -124,15 +124,15 @@ class EntryCapsule(Block):
         columns=KNOTS,
         unit="1",
         description=(
-            "normal force coefficient across x, one row per Mach number, columns for total angles of attack "
-            "from 0 to 60 deg"
+            "normal force coefficient perpendicular to x, one row per Mach number, columns for total angles of "
+            "attack from 0 to 60 deg"
         ),
     )
     jet_torque = Parameter(
         [100.0, 100.0, 80.0, 80.0, 80.0, 80.0],
         unit="N.m",
         minimum=0.0,
-        description="torque of each jet, in the order +x, -x, +y, -y, +z, -z",
+        description="torque of each jet, in the order +x, -x, +y, -y, +z, -z of the body axes",
     )
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
         3.986e14, "gravitational parameter of the Earth"
@@ -192,7 +192,9 @@ class EntryCapsule(Block):
     finished = landing.FINISHED.output("true: capsule below final_height, simulation to be ended")
     status = Output(CapsuleStatus)
     state = State(EntryState, radius=6471000.0, speed=7620.0)
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of the capsule's inertia matrix, 1/(kg m2)")
+    inverse_inertia = State(
+        [0.0] * 9, columns=3, description="inverse of the capsule's inertia matrix, 1/(kg m2) (body frame)"
+    )
     axial_curvature = State(
         [0.0] * 130, columns=KNOTS, description="second derivatives of the splines of the axial coefficient, 1/rad2"
     )
@@ -205,7 +207,7 @@ class EntryCapsule(Block):
         frame="body",
         description="remaining lengths of the current pulses about x, y and z, signed as the torque",
     )
-    counted = State(0, description="pulse_count at which the last pulses were accepted")
+    counted = State(0, description="pulse_count of the last accepted pulses")
 
     def initialize(self) -> None:
         self.inverse_inertia, invertible = inverse(self.inertia)

@@ -40,7 +40,9 @@ class FlatMoonLander(Block):
     position = landing.POSITION.output()
     velocity = landing.VELOCITY.output()
     mass = landing.MASS.output(start=940.0)
-    specific_force = landing.ACCELERATION.output("thrust over mass of the lander, mean over the last step")
+    specific_force = landing.ACCELERATION.output(
+        "specific force of the lander (thrust over mass), mean over the last step"
+    )
     latched = State(False, description="true: burn ended, position and velocity held")
     under_thrust = State(False, description="true: engine burning at the end of the last step")
 

@@ -16,7 +16,7 @@ class Burn(Record):
     start = Field(unit="m/s2", description="thrust acceleration at the start of the step")
     middle = Field(unit="m/s2", description="thrust acceleration in the middle of the step")
     end = Field(unit="m/s2", description="thrust acceleration at the end of the step")
-    gain = Field(unit="m/s", description="speed gained by the rocket equation")
+    gain = Field(unit="m/s", description="speed gained over the step, by the rocket equation")
 
 
 def scale(burn: Burn, simpson: float) -> Burn:
@@ -70,7 +70,9 @@ class MoonLander(Block, interface=True):
     speed = Output(0.0, unit="m/s", description="magnitude of the lander's velocity relative to the landing site")
     mass = landing.MASS.output(start=940.0)
     altitude = landing.ALTITUDE.output()
-    specific_force = landing.ACCELERATION.output("thrust over mass of the lander, mean over the last step")
+    specific_force = landing.ACCELERATION.output(
+        "specific force of the lander (thrust over mass), mean over the last step"
+    )
     sensed_velocity = landing.VELOCITY.output("time integral of the lander's specific force since the start")
     delivered_thrust = Output(0.0, unit="N", description="actual thrust of the engine at the end of the step")
     attitude = landing.DIRECTION.output("actual direction of the thrust axis, unit vector")
@@ -79,7 +81,9 @@ class MoonLander(Block, interface=True):
     longest_step = State(
         0.1,
         unit="s",
-        description="longest integration step in use: internal_step, or an equal part of it for short time constants",
+        description=(
+            "longest integration step in use: internal_step, or an integer fraction of it for short time constants"
+        ),
     )
 
     def place(self) -> None:

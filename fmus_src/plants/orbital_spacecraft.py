@@ -50,7 +50,7 @@ class OrbitalSpacecraft(OrbitalBody):
         frame="body",
         description="remaining lengths of the current pulses about x, y and z, signed as the torque",
     )
-    counted = State(0, description="pulse_count at which the last pulses were accepted")
+    counted = State(0, description="pulse_count of the last accepted pulses")
 
     def initialize(self) -> None:
         self.angles = self.initial_angles

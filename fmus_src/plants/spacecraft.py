@@ -24,8 +24,8 @@ class SpacecraftStatus(Enumeration):
     TORQUE_LIMITED = member("a motor torque limited")
     SPEED_LIMITED = member("a wheel at its speed limit")
     DIPOLE_LIMITED = member("a dipole limited")
-    NO_NORMAL = member("plate without normal omitted")
-    BELOW_AIR = member("below 100 km, density of the air that of 100 km")
+    NO_NORMAL = member("a plate without normal omitted")
+    BELOW_AIR = member("below 100 km, air density of 100 km used")
     MODE_TOO_FAST = member("a mode too fast for the internal step")
     NOT_FINITE = member("an input not finite, taken as 0")
     BELOW_SURFACE = member("below the surface, no motion")
@@ -162,7 +162,10 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         description="angular momentum of the whole spacecraft about its centre of mass",
     )
     specific_force = Output(
-        [0.0, 0.0, 0.0], unit="m/s2", frame="body", description="non-gravitational force over mass of the spacecraft"
+        [0.0, 0.0, 0.0],
+        unit="m/s2",
+        frame="body",
+        description="specific force of the spacecraft (non-gravitational force over mass)",
     )
     applied_dipole = space.DIPOLE.output("magnetic dipole moment of the torquers after limitation")
     disturbance_torque = body.TORQUE.output(
@@ -173,7 +176,8 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         zeros(3, 3),
         frozen=True,
         description=(
-            "inverse of the inertia matrix without the wheels' spin inertia and the modes' contribution, 1/(kg m2)"
+            "inverse of the inertia matrix without the wheels' spin inertia and the modes' contribution, 1/(kg "
+            "m2) (body frame)"
         ),
     )
     fastest = State(

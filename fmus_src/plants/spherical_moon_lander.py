@@ -38,7 +38,7 @@ class SphericalMoonLander(MoonLander):
     )
     latch_at_burn_end = Parameter(
         False,
-        description="true: motion held from the commanded end of a burn on, without the residual thrust of the lag",
+        description="true: motion held from the commanded end of a burn on, without the residual thrust due to the lag",
     )
     thrust_direction = landing.DIRECTION.input("commanded thrust direction at command_time, unit vector")
     thrust_direction_rate = landing.DIRECTION_RATE.input()

@@ -87,7 +87,8 @@ class WheelSatellite(SpinningWheels):
     )
     status = Output(WheelSatelliteStatus)
     inverse_inertia = State(
-        zeros(3, 3), description="inverse of the inertia matrix without the wheels' spin inertia, 1/(kg m2)"
+        zeros(3, 3),
+        description="inverse of the inertia matrix without the wheels' spin inertia, 1/(kg m2) (body frame)",
     )
 
     def initialize(self) -> None:

@@ -27,13 +27,13 @@ class AttitudeSensor(RandomSensor):
         deg(0.05), unit="rad", minimum=0.0, description="constant error of the measured thrust axis, 1 sigma per axis"
     )
     attitude_sigma = Parameter(
-        deg(0.015), unit="rad", minimum=0.0, description="white error of the measured thrust axis, 1 sigma per axis"
+        deg(0.015), unit="rad", minimum=0.0, description="white noise of the measured thrust axis, 1 sigma per axis"
     )
     rate_sigma = Parameter(
         3.490658503988659e-4,
         unit="rad/s",
         minimum=0.0,
-        description="white error of the measured angular rate, 1 sigma per axis",
+        description="white noise of the measured angular rate, 1 sigma per axis",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0)
     seed, stream = sampling.random_stream()

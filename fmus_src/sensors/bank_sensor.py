@@ -20,7 +20,7 @@ class BankSensor(RandomSensor):
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="white error of the measured bank angle, 1 sigma")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="white noise of the measured bank angle, 1 sigma")
     bias = Parameter(0.0, unit="rad", description="constant error of the measured bank angle")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()

@@ -28,7 +28,7 @@ class DopplerVelocimeter(RandomSensor):
         0.001,
         unit="1",
         minimum=0.0,
-        description="velocity error proportional to speed, as a fraction of it, 1 sigma per axis",
+        description="velocity error proportional to speed, as a fraction of the speed, 1 sigma per axis",
     )
     noise_sigma = Parameter(
         0.05, unit="m/s", minimum=0.0, description="constant part of the velocity error, 1 sigma per axis"

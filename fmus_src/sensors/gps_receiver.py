@@ -41,18 +41,20 @@ class GpsReceiver(RandomSensor):
     default_step = 1.0
 
     position_sigma = Parameter(
-        3.0, unit="m", minimum=0.0, description="white error of measured position, 1 sigma per axis"
+        3.0, unit="m", minimum=0.0, description="white noise of the measured position, 1 sigma per axis"
     )
     velocity_sigma = Parameter(
-        0.03, unit="m/s", minimum=0.0, description="white error of measured velocity, 1 sigma per axis"
+        0.03, unit="m/s", minimum=0.0, description="white noise of the measured velocity, 1 sigma per axis"
     )
     markov_sigma = Parameter(
-        5.0, unit="m", minimum=0.0, description="Gauss-Markov error of measured position, 1 sigma per axis"
+        5.0, unit="m", minimum=0.0, description="Gauss-Markov error of the measured position, 1 sigma per axis"
     )
     markov_time = Parameter(
         300.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov position error"
     )
-    clock_error = Parameter(0.0, unit="s", description="constant error of the receiver's clock in sample_time")
+    clock_error = Parameter(
+        0.0, unit="s", description="constant error of the receiver's clock, included in sample_time"
+    )
     latency = Parameter(1, minimum=0, maximum=LATEST, description="delay from measurement to output, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
@@ -72,9 +74,10 @@ class GpsReceiver(RandomSensor):
         "number of samples received since the start; a change signals a new sample"
     )
     status = Output(ReceiverStatus, direct=True)
-    markov = inertial.POSITION.state("Gauss-Markov error of measured position")
+    markov = inertial.POSITION.state("Gauss-Markov error of the measured position")
     samples = State(
-        zeros(LATEST + 1, 8), description="delayed samples, newest first: position, velocity and time (SI), 1 for valid"
+        zeros(LATEST + 1, 8),
+        description="delayed samples, one per row, newest first: inertial position, velocity, time, validity, SI units",
     )
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last sample")

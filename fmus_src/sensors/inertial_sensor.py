@@ -44,7 +44,7 @@ class InertialSensor(Block):
     seed, stream = sampling.random_stream()
     sensed_velocity = landing.VELOCITY.input("true time integral of specific force since the start")
     velocity_increment = landing.VELOCITY.output(
-        "measured integral of specific force between the last two samples", direct=True
+        "measured time integral of specific force between the last two samples", direct=True
     )
     sample_count = sampling.SAMPLE_COUNT.output(
         "number of samples with a velocity increment since the start; a change signals a new sample"

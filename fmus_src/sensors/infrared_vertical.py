@@ -26,10 +26,10 @@ class InfraredVertical(Block):
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of measured roll and pitch, 1 sigma")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="random error of measured roll and pitch, 1 sigma")
     bias = Parameter([0.0, 0.0], unit="rad", description="constant errors of measured roll and pitch")
     correlation_time = Parameter(
-        0.0, unit="s", minimum=0.0, description="correlation time of the roll and pitch errors; 0: white errors"
+        0.0, unit="s", minimum=0.0, description="correlation time of the roll and pitch errors; 0: white noise"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()

@@ -54,7 +54,10 @@ class Magnetometer(RandomSensor):
         description="matrix S of scale factor errors (diagonal) and misalignments",
     )
     scale_sigma = Parameter(
-        2e-3, unit="1", minimum=0.0, description="random part of each element of S, constant over a simulation, 1 sigma"
+        2e-3,
+        unit="1",
+        minimum=0.0,
+        description="random part of each element of the matrix S, constant over a simulation, 1 sigma",
     )
     coupling = Parameter(
         [0.0] * 9,
@@ -74,7 +77,11 @@ class Magnetometer(RandomSensor):
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(MagnetometerStatus, direct=True)
     total_bias = space.MAGNETIC_FIELD.state("sum of constant and random bias of measured flux density")
-    total_scale = State(zeros(3, 3), frozen=True, description="sum of the matrix S and its random part")
+    total_scale = State(
+        zeros(3, 3),
+        frozen=True,
+        description="sum of the matrix S of scale factor errors and its random part (body frame)",
+    )
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

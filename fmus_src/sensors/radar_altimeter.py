@@ -27,7 +27,7 @@ class RadarAltimeter(RandomSensor):
         0.005,
         unit="1",
         minimum=0.0,
-        description="altitude error proportional to altitude, as a fraction of it, 1 sigma",
+        description="altitude error proportional to altitude, as a fraction of the altitude, 1 sigma",
     )
     noise_sigma = landing.NOISE_SIGMA.parameter()
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()

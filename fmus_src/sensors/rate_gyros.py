@@ -84,7 +84,7 @@ class RateGyros(RandomSensor):
         zeros(LATEST + 1, 3),
         unit="rad/s",
         frame="body",
-        description="delayed samples of angular velocity, newest first",
+        description="delayed samples of angular velocity, one per row, newest first",
     )
     measurements = State(0, description="number of measurements since the start, delayed ones included")
     has_scale = State(False, description="true: matrix S of scale factor errors and misalignments differs from 0")

@@ -56,7 +56,7 @@ class StarInertial(RandomSensor):
         0.0,
         unit="rad",
         minimum=0.0,
-        description="error of the measured attitude about the boresight, 1 sigma; 0: attitude_sigma",
+        description="error of the measured attitude about the boresight, 1 sigma; 0: same as attitude_sigma",
     )
     sun_exclusion = Parameter(
         0.0,
@@ -104,7 +104,8 @@ class StarInertial(RandomSensor):
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(StarTrackerStatus, direct=True)
     samples = State(
-        zeros(LATEST + 1, 6), description="delayed samples, newest first: attitude quaternion, time in s, 1 for valid"
+        zeros(LATEST + 1, 6),
+        description="delayed samples, one per row, newest first: attitude quaternion, time in s, 1 if valid",
     )
     axis = State(
         [0.0] * 3,

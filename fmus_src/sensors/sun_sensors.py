@@ -71,7 +71,9 @@ class SunSensors(RandomSensor):
         0.0,
         unit="1",
         minimum=0.0,
-        description="current from the Earth's albedo of a head that points straight down, as a fraction of full scale",
+        description=(
+            "current due to the Earth's albedo in a head that points straight down, as a fraction of full scale"
+        ),
     )
     field_of_view = Parameter(
         deg(85.0),
@@ -114,7 +116,7 @@ class SunSensors(RandomSensor):
         direct=True,
         description="measured direction from the spacecraft to the Sun, unit vector",
     )
-    valid = Output(False, direct=True, description="true: Sun seen in the last sample")
+    valid = Output(False, direct=True, description="true: Sun in view in the last sample")
     sample_count = sampling.SAMPLE_COUNT.output(
         "number of samples with the Sun in view since the start; a change signals a new sample"
     )

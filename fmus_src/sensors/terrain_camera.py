@@ -27,7 +27,7 @@ class TerrainCamera(RandomSensor):
         0.0015,
         unit="1",
         minimum=0.0,
-        description="position error proportional to altitude, as a fraction of it, 1 sigma per axis",
+        description="position error proportional to altitude, as a fraction of the altitude, 1 sigma per axis",
     )
     noise_sigma = landing.NOISE_SIGMA.parameter(2.0, "constant part of the position error, 1 sigma per axis")
     minimum_altitude = Parameter(500.0, unit="m", description="lowest altitude at which the sensor measures")

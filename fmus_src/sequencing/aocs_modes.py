@@ -54,10 +54,10 @@ class AocsModes(Block):
         deg(10.0),
         unit="rad",
         minimum=0.0,
-        description="largest angle between panel_normal and the Sun with which SUN can end",
+        description="largest angle between panel_normal and the Sun at which SUN can end",
     )
     panel_normal = Parameter(
-        [0.0, -1.0, 0.0], unit="1", frame="body", description="axis pointed to the Sun in SUN, body"
+        [0.0, -1.0, 0.0], unit="1", frame="body", description="body axis pointed to the Sun in mode SUN"
     )
     settle_time = Parameter(
         60.0,

@@ -34,7 +34,9 @@ class CommandSwitch(Block):
         "feedforward of the thrust axis' angular acceleration", direct=True
     )
     passed_thrust_acceleration = State(
-        0.0, unit="m/s2", description="thrust over mass of the last command passed on, whether the engine is on or off"
+        0.0,
+        unit="m/s2",
+        description="thrust acceleration of the last command passed on, whether the engine is on or off",
     )
 
     def initialize(self) -> None:

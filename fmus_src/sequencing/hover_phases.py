@@ -22,9 +22,9 @@ class HoverPhases(LandingSequence, interface=True):
         description="duration of hover 1 and of hover 2, in which the landing site is re-designated",
     )
     hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest duration of hover 1 and of hover 2")
-    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="largest speed with which a hover can end")
+    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="largest speed at which a hover can end")
     settled_distance = Parameter(
-        10.0, unit="m", minimum=0.0, description="largest distance from the target with which a hover can end"
+        10.0, unit="m", minimum=0.0, description="largest distance from the target at which a hover can end"
     )
     reach_over_drop = Parameter(
         1.3,

@@ -32,11 +32,11 @@ class LandingInputs(Block, interface=True):
     braking_time_to_go = Input(0.0, unit="s", description="time to go of the braking guidance")
     braking_status = Input(TerminalStatus, description="status of the braking guidance")
     braking_finished = Input(False, description="true: braking guidance finished")
-    hover_plan = landing.HOVER_PLAN.input("plan_number that the outputs of the hover guidance follow")
+    hover_plan = landing.HOVER_PLAN.input("plan_number of the plan that the outputs of the hover guidance follow")
     hover_finished = Input(False, description="true: plan of the hover guidance completed")
     hover_status = Input(HoverStatus, description="status of the hover guidance")
     predicted_propellant = landing.PREDICTED_PROPELLANT.input(
-        "propellant that the plan of the hover guidance is predicted to use"
+        "predicted propellant consumption of the plan of the hover guidance"
     )
     probe_contact = landing.PROBE_CONTACT.input()
     ground_contact = landing.GROUND_CONTACT.input()
@@ -44,13 +44,13 @@ class LandingInputs(Block, interface=True):
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="first re-designation: offset of the site along x and y, read at the end of hover 1",
+        description="first re-designation: offset of the landing site along x and y, read at the end of hover 1",
     )
     redesignation_2 = Input(
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="second re-designation: offset of the site along x and y, read at the end of hover 2",
+        description="second re-designation: offset of the landing site along x and y, read at the end of hover 2",
     )
     divert_count = Input(
         0, description="number of diverts of the braking guidance; a change during braking moves the landing site"
@@ -118,13 +118,13 @@ class LandingInputs(Block, interface=True):
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="first re-designation of the site along x and y, sampled for this decision period",
+        description="first re-designation: offset of the landing site along x and y, sampled for this decision period",
     )
     sampled_move_2 = State(
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="second re-designation of the site along x and y, sampled for this decision period",
+        description="second re-designation: offset of the landing site along x and y, sampled for this decision period",
     )
     sampled_divert = State(0, description="number of diverts of the braking guidance, sampled for this decision period")
     sampled_divert_position = State(

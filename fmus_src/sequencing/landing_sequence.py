@@ -68,17 +68,19 @@ class LandingSequence(LandingInputs, interface=True):
     hover_active = Output(False, description="true: hover guidance active")
     hover_mode = Output(HoverMode)
     plan_number = landing.PLAN_NUMBER.output(
-        "number of the plan requested from the hover guidance; a change requests a new one"
+        "number of the plan requested from the hover guidance; a change requests a new plan"
     )
     target_position = landing.POSITION.output(
         "target position of the hover guidance relative to the initial landing site"
     )
-    site = landing.POSITION.output("position of the landing site on the sphere of moon_radius")
+    site = landing.POSITION.output(
+        "position of the landing site on the sphere of moon_radius, relative to the initial landing site"
+    )
     source = Output(CommandSource, description="source of the current command")
     engine_on = landing.ENGINE_ON.output("true: engine to burn")
     command = Outputs(ThrustCommand, about="command of the sequencer:")
     free_flight = landing.FREE_FLIGHT.output("true: free flight without thrust, for navigation")
-    status = Output(LandingStatus, description="largest status since the start")
+    status = Output(LandingStatus, description="highest status since the start")
     status_flags = Output(
         0,
         minimum=0,
@@ -92,7 +94,7 @@ class LandingSequence(LandingInputs, interface=True):
     phase_mass = Output(
         [0.0] * 9,
         unit="kg",
-        description="mass of the lander at the start of each phase, one decision period late; 0: not started",
+        description="mass of the lander one decision period after the start of each phase; 0: not started",
     )
     finished = landing.FINISHED.output()
     mass_is_known = State(False, description="true: phase_mass of the current phase set")

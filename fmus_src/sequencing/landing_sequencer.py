@@ -25,7 +25,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     """
 
     settling_time = Parameter(2.0, unit="s", minimum=0.0, description="time from engine cut-off to free flight")
-    last_thrust = State(0.0, frozen=True, unit="s", description="time since which the engine has been off")
+    last_thrust = State(0.0, frozen=True, unit="s", description="time at which the engine was last on")
 
     def initialize(self) -> None:
         self.sample_inputs(self.start_time)

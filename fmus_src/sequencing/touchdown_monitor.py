@@ -34,7 +34,7 @@ class TouchdownMonitor(Block):
         "true component of the lander's velocity along the local vertical, positive upwards"
     )
     horizontal_speed = landing.HORIZONTAL_SPEED.input("true speed of the lander perpendicular to the local vertical")
-    tilt = landing.TILT.input("true angle between thrust axis and local vertical")
+    tilt = landing.TILT.input("true tilt: angle between thrust axis and local vertical")
     angular_rate = landing.ANGULAR_RATE.input("true angular rate of the thrust axis")
     position = landing.POSITION.input("true position of the lander relative to the landing site")
     site = landing.POSITION.input("position of the landing site")

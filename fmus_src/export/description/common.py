@@ -18,8 +18,8 @@ from ..judge.tunable import NEVER_READ, find_fixed
 UNREAD = "not used by this block"  # for parameters that a slot's blocks share
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
-    "logStatusError": "what ended a step, with the traceback or source line",
-    "logAll": "everything",
+    "logStatusError": "errors that ended a step, with traceback or source line",
+    "logAll": "all messages",
 }
 
 

@@ -9,9 +9,11 @@ from ...units import deg
 BANK = Port(0.0, unit="rad", description="bank angle of the capsule")
 DENSITY_FACTOR = Port(1.0, unit="1", description="ratio of actual to standard atmospheric density")
 DYNAMIC_PRESSURE = Port(0.0, unit="Pa", description="dynamic pressure in the standard atmosphere without wind")
-ERROR_LIMIT = Port(math.pi, unit="rad", description="magnitude to which control limits the bank error")
+ERROR_LIMIT = Port(math.pi, unit="rad", description="magnitude to which the control limits the bank error")
 JET_FACTOR = Port(
-    [1.0] * 6, unit="1", description="ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z"
+    [1.0] * 6,
+    unit="1",
+    description="ratio of actual to nominal torque of the jets about the body axes +x, -x, +y, -y, +z, -z",
 )
 TARGET_BANK = Port(deg(60.0), unit="rad", description="target bank angle of the programme")
 WIND = Port(

@@ -91,7 +91,7 @@ HANDOVER_SPEED = Port(
     5.9, unit="m/s", minimum=0.0, description="speed below which braking is handed over to the next phase"
 )
 HORIZONTAL_SPEED = Port(0.0, unit="m/s", description="speed of the lander perpendicular to the local vertical")
-HOVER_PLAN = Port(0, description="plan_number that the command of the hover guidance follows")
+HOVER_PLAN = Port(0, description="plan_number of the plan that the command of the hover guidance follows")
 INITIAL_MASS = Port(940.0, unit="kg", minimum=1e-3, description="initial mass of the lander with propellant")
 MASS = Port(1.0, unit="kg", description="mass of the lander")
 MAXIMUM_ALTITUDE = Port(2e4, unit="m", description="highest altitude at which the sensor measures")
@@ -110,7 +110,7 @@ POSITION = Port(
 POSITION_SIGMA = Port(
     2.0, unit="m", minimum=0.0, description="constant part of the position measurement error, 1 sigma per axis"
 )
-PREDICTED_PROPELLANT = Port(0.0, unit="kg", description="propellant that the plan is predicted to use")
+PREDICTED_PROPELLANT = Port(0.0, unit="kg", description="predicted propellant consumption of the plan")
 PROBE_CONTACT = Port(False, description="true: landing probe in contact with the ground")
 PROBE_LENGTH = Port(1.5, unit="m", minimum=0.0, description="altitude below which the landing probe touches the ground")
 SCALE_FACTOR_SIGMA = Port(
@@ -118,10 +118,10 @@ SCALE_FACTOR_SIGMA = Port(
 )
 SPECIFIC_IMPULSE = Port(319.0, unit="s", minimum=1e-3, description="specific impulse of the engine")
 THRUST = Port(0.0, unit="N", description="commanded thrust of the engine")
-THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="commanded thrust over mass")
+THRUST_ACCELERATION = Port(0.0, unit="m/s2", description="commanded thrust acceleration (thrust over mass)")
 THRUST_ANGLE = Port(0.0, unit="rad", description="angle from the local vertical to the thrust")
 THRUST_LAG = Port(0.0, unit="s", minimum=0.0, description="time constant of the engine's thrust; 0: no lag")
-TILT = Port(0.0, unit="rad", description="angle between thrust axis and local vertical")
+TILT = Port(0.0, unit="rad", description="tilt: angle between thrust axis and local vertical")
 TIME_TO_GO = Port(0.0, unit="s", description="time to go until the target state is reached")
 UNIFORM_GRAVITY = Port(
     0.0,

@@ -17,6 +17,6 @@ START_TIME = Port(0.0, unit="s", description="start time of the simulation")
 
 def random_stream() -> tuple[Parameter, Parameter]:
     """Return the parameters seed and stream of a block's random number generator."""
-    seed = Parameter(1, minimum=0, description="seed of the random numbers")
-    stream = Parameter(0, minimum=0, description="stream of the random numbers within the seed")
+    seed = Parameter(1, minimum=0, description="seed of the random number generator")
+    stream = Parameter(0, minimum=0, description="stream of the random number generator for this seed")
     return seed, stream

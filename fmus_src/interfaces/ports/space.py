@@ -7,7 +7,7 @@ from . import body
 
 EPOCH = Port(827301600.0, unit="s", description="Terrestrial Time at simulation time 0, since J2000.0")
 TT_MINUS_UT1 = Port(
-    69.184, unit="s", description="difference of Terrestrial Time and UT1; UTC in place of UT1 errs by at most 0.9 s"
+    69.184, unit="s", description="Terrestrial Time minus UT1; with UTC in place of UT1 the error is at most 0.9 s"
 )
 DIPOLE = Port([0.0, 0.0, 0.0], unit="A.m2", frame="body", description="magnetic dipole moment of the torquers")
 MAGNETIC_FIELD = Port([0.0, 0.0, 0.0], unit="T", frame="body", description="magnetic flux density at the spacecraft")

@@ -26,7 +26,7 @@ class DescentShape(Record):
     """Parameters of the control law."""
 
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
-    gamma = Field(unit="1", description="first exponent of the time to go")
+    gamma = Field(unit="1", description="first exponent gamma of the time to go")
     kr = Field(unit="1", description="gain of the position error")
 
 
@@ -38,7 +38,7 @@ class DescentProfile(Record):
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     first = Field(Vector3, unit="m/s2", description="coefficient of s^gamma")
     second = Field(Vector3, unit="m/s2", description="coefficient of s^gamma_2")
-    gamma = Field(unit="1", description="first exponent of the time to go")
+    gamma = Field(unit="1", description="first exponent gamma of the time to go")
     gamma_2 = Field(unit="1", description="second exponent of the time to go")
 
 
