@@ -25,7 +25,7 @@ def whole_file(path: Path) -> Iterator[Path]:
         with partial.open("rb") as file:
             os.fsync(file.fileno())
         partial.replace(path)
-    except OSError as error:  # libraries raise it without the file's name, or with that of the partial one
+    except OSError as error:  # libraries raise it without a file name, or with the name of the temporary file
         code = error.errno or errno.EIO
         raise OSError(code, os.strerror(code), str(path)) from error
     finally:

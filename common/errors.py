@@ -14,12 +14,12 @@ from typing import Any
 class ExitStatus(IntEnum):
     """Exit status of any verb."""
 
-    MET = 0  # done, and everything that was to hold does
+    MET = 0  # completed, and everything that was checked holds
     NOT_MET = 1  # completed, but something is violated, withheld or not evaluated, or a simulation did not finish
     REFUSED = 2  # wrong input, or a result could not be written
 
 
-PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a parameter
+PARAMETER = re.compile(r"`(\w+)`")  # the name of a parameter in a message
 
 
 class InputError(ValueError):
@@ -54,12 +54,12 @@ class InputError(ValueError):
     def text(self) -> str:
         """The error in one line, with parameters in backquotes."""
         location = ": ".join(_shorten(part) for part in (self.file, self.element, self.problem) if part)
-        # others' texts may end with a full stop
+        # texts of other libraries may end with a full stop
         ended = location if location.endswith("..") else location.removesuffix(".")
         return " ".join(f"{ended}; {_shorten(self.remedy)}".split())
 
 
-LONGEST = 1000  # characters of each piece of a line, whose names and values may be those of a file
+LONGEST = 1000  # characters of each part of a line, whose names and values may come from a file
 
 
 def _shorten(text: str) -> str:
@@ -119,7 +119,11 @@ def warn_in_one_line() -> None:
     warnings.formatwarning = lambda message, *_: f"perilune: {PARAMETER.sub(_flag, str(message))}\n"
 
 
-FEW, NEAREST, ALL = 6, 4, 12  # names: up to FEW are all shown, NEAREST of more, ALL where none is near
+FEW, NEAREST, ALL = (
+    6,
+    4,
+    12,
+)  # numbers of names shown: all of up to FEW, otherwise the NEAREST ones, or up to ALL if none is near
 NEAR = 0.6  # least ratio of difflib, which is 1 for equal texts
 
 
@@ -134,7 +138,9 @@ def suggestion(name: str, known: Iterable[str]) -> str:
         other: 1.0 if name and other.startswith(name) else difflib.SequenceMatcher(None, other, name).ratio()
         for other in names
     }
-    ranked = sorted(names, key=lambda other: -likeness[other])  # keeps the order of equally similar names
+    ranked = sorted(
+        names, key=lambda other: -likeness[other]
+    )  # a stable sort, which keeps the order of equally similar names
     near = [other for other in ranked if likeness[other] >= NEAR][:NEAREST]
     if len(names) <= FEW:
         return f"use one of {', '.join(near + [other for other in names if other not in near])}"

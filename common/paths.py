@@ -11,7 +11,7 @@ from typing import Literal, get_args
 
 from platformdirs import user_cache_path
 
-PACKAGE = Path(__file__).parents[1]  # perilune; in a checkout its rooms are links to the folders next to it
+PACKAGE = Path(__file__).parents[1]  # perilune; in a checkout its subfolders are links to the folders next to it
 IS_CHECKOUT = (PACKAGE.parent / "build_fmus.py").is_file()
 ROOT = PACKAGE.parent if IS_CHECKOUT else PACKAGE
 SYSTEMS = ROOT / "ssp_systems"

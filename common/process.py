@@ -57,7 +57,7 @@ class Stream:
             getattr(self._stream, name)(*arguments)
         except OSError as error:
             self.error = error
-            with suppress(OSError):  # its buffer still holds what cannot be written, and is flushed once more at exit
+            with suppress(OSError):  # the stream's buffer, which cannot be written, is flushed once more at exit
                 nowhere = os.open(os.devnull, os.O_WRONLY)
                 os.dup2(nowhere, self._stream.fileno())
                 os.close(nowhere)

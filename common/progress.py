@@ -17,7 +17,7 @@ PERIOD = 10.0  # s between lines
 class ProgressLines(text_bar):
     """Progress bar in the form of log lines; the first appears after `PERIOD`, so quick work writes none."""
 
-    monitor_interval = 0  # no thread that refreshes
+    monitor_interval = 0  # disables the thread that refreshes
 
     def __init__(self, **options: Any) -> None:
         lines = {"file": StringIO(), "delay": PERIOD, "mininterval": PERIOD, "miniters": 1, "disable": False}
@@ -47,7 +47,7 @@ def progress_bar(**options: Any) -> text_bar:
     """Return tqdm's bar with ``options``, which disappears at the end, or log lines if standard error is not a
     terminal.
     """
-    # tqdm asks whether its file is a terminal, which that of a notebook's cell is not
+    # tqdm checks that its file is a terminal, and the output of a notebook cell is none
     if IN_NOTEBOOK or sys.stderr.isatty():
         return tqdm(**options, disable=False, leave=False)
     return ProgressLines(**options, leave=False)

@@ -16,7 +16,7 @@ from .process import at_end
 
 PREFIX = "perilune_"
 LOCK = "lock"  # in each process's folder, locked while the process exists
-YOUNG = 60.0  # s, in which a folder may not be locked yet
+YOUNG = 60.0  # s, age up to which a folder may not be locked yet
 
 
 def make_folder() -> Path:

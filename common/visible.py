@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-# C0 and C1 but for tab, line feed and carriage return; marks of the direction of writing.
+# C0 and C1 except tab, line feed and carriage return; marks of the writing direction.
 CONTROLS = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 
 BREAKS = re.compile("[\n\r\u2028\u2029]")
@@ -38,8 +38,8 @@ def _escape(match: re.Match[str]) -> str:
     return f"\\x{code:02x}" if code < 0x20 else f"\\u{code:04x}"
 
 
-FORMULAS = ("=", "+", "-", "@")  # beginnings of what a spreadsheet computes
-QUOTE = "'"  # spreadsheets read the rest as text
+FORMULAS = ("=", "+", "-", "@")  # first characters of a formula in a spreadsheet
+QUOTE = "'"  # makes spreadsheets read the following characters as text
 
 
 def quote_formula(name: str) -> str:

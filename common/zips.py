@@ -35,7 +35,7 @@ UNREADABLE = (
 def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
     """Open a zip archive without unpacking it. Raises InputError for damaged, unsafe or too large archives."""
     end = packed.rfind(END)
-    if end >= 0:  # before zipfile makes an object of every entry; 65535 stands for as many or more
+    if end >= 0:  # before zipfile creates an object for every entry; 65535 means at least that many
         ARCHIVE_ENTRIES.check(int.from_bytes(packed[end + 10 : end + 12], "little"), label, "archive")
     try:
         archive = zipfile.ZipFile(io.BytesIO(packed))

@@ -2,5 +2,5 @@
 
 from __future__ import annotations
 
-if __name__ == "fmus_src":  # a second copy of every class, with errors that no handler catches
+if __name__ == "fmus_src":  # would create a second copy of every class, whose errors would not be caught
     raise ImportError("fmus_src is a subpackage of perilune: import perilune.fmus_src")

@@ -100,7 +100,7 @@ class Block(DataFiles, HasExternalState):
     @classmethod
     def _check_written(cls) -> None:
         for base in cls.__mro__:
-            own_step = cls.step is not getattr(base, "step", None)  # which need not call the methods to write
+            own_step = cls.step is not getattr(base, "step", None)  # need not call the methods of ``to_write``
             for name in () if own_step else vars(base).get("to_write", ()):
                 if getattr(cls, name) is vars(base)[name]:
                     arguments = ", ".join(inspect.signature(vars(base)[name]).parameters)

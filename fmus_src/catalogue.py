@@ -83,8 +83,8 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     _check_names(path)
     try:
         module = import_file(path)
-    except Exception as error:  # an exception of the user's file is reported as one line
-        # Python 3.11 wraps what a declaration raises
+    except Exception as error:  # any exception from the user's file is reported in one line
+        # Python 3.11 wraps exceptions of declarations
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
         raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}; correct the file") from error
     blocks = blocks_of(module)

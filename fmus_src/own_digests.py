@@ -67,7 +67,7 @@ def note_own(path: Path) -> None:
     try:
         NOTED.parent.mkdir(parents=True, exist_ok=True)
         line = _line(digest, path)
-        # One write, since processes may build concurrently; on a new line if the last one is incomplete.
+        # A single write, since processes may build concurrently, on a new line if the last line is incomplete.
         with NOTED.open("ab+") as file:
             size = file.seek(0, os.SEEK_END)
             file.seek(max(size - 1, 0))

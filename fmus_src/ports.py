@@ -17,7 +17,7 @@ class Port:
         self.start = start
         self.declaration = declaration
 
-    if TYPE_CHECKING:  # a bundle in a block has plain values under its ports' names
+    if TYPE_CHECKING:  # in a block, a bundle holds plain values under the names of its ports
 
         def __get__(self, instance: object, owner: type | None = None) -> Any: ...
 

@@ -16,14 +16,22 @@ from .kernel.vector_types import vector
 from .roles import INTEGRATION_STEPS, SAMPLE_PERIOD, START_TIME
 from .start_values import StartError, TuningError, describe_violation, start_range
 
-# Tolerances of communication points at sample instants: importers round t0 + n h, or sum h.
-SAMPLE_TOLERANCE = 1e-6  # of a sample period
-TIME_TOLERANCE = 1e-15  # of the time
-STEP_LIMIT = 1_000_000  # samples, and steps of a block's own integration, in a communication step
-POINT_TOLERANCE = 1e-3  # of a step, for the importer's rounding of communication points
+# Tolerances for communication points at sample instants: importers round t0 + n h, or add up h.
+SAMPLE_TOLERANCE = 1e-6  # fraction of a sample period
+TIME_TOLERANCE = 1e-15  # fraction of the time
+STEP_LIMIT = (
+    1_000_000  # largest number of samples, or of steps of a block's internal integration, in a communication step
+)
+POINT_TOLERANCE = 1e-3  # fraction of a step by which importers may round communication points
 
-SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's index: the whole variable
-Access = tuple[str, int, int, int]  # variable, element or one of the above, first and last position of its values
+SCALAR, VECTOR, LIST, RECORD, MATRIX = (
+    -1,
+    -2,
+    -3,
+    -4,
+    -5,
+)  # replace the index of an element if the access is to the whole variable
+Access = tuple[str, int, int, int]  # variable, element or one of the above, first and last position of the values
 
 
 class StepError(ValueError):
@@ -203,7 +211,7 @@ class BlockInstance:
             if isinstance(variable, State | Output):
                 setattr(self.block, name, variable.start)
         self.check_start_values()
-        self.block.drop_external()  # before new ones, to avoid the memory of two simulations
+        self.block.drop_external()  # before new ones are created, so that memory holds one simulation only
         self.tick = 0
         if START_TIME in self.block.variables:
             self.block.start_time = self.start_time

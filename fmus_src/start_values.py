@@ -11,7 +11,7 @@ import sys
 
 from .variables import Parameter, Variable
 
-LARGEST = sys.float_info.max  # in place of a bound that is not declared: neither infinity nor NaN lies within
+LARGEST = sys.float_info.max  # replaces a bound that is not declared, so that infinity and NaN are always outside
 
 
 class StartError(ValueError):

@@ -21,7 +21,9 @@ from importlib.machinery import ModuleSpec, SourceFileLoader
 from pathlib import Path
 from types import CodeType, ModuleType
 
-LIBRARIES = frozenset({"numpy", "perilune", "pythonfmu", *sys.stdlib_module_names})  # never a file of the folder
+LIBRARIES = frozenset(
+    {"numpy", "perilune", "pythonfmu", *sys.stdlib_module_names}
+)  # names that never refer to a file of the folder
 FROM = re.compile(rb"from[\s\\]+")
 _folders: dict[str, Path] = {}
 

@@ -24,7 +24,7 @@ CONVERSIONS: dict[type, Callable[[Any], Any]] = {
     float: float,
     int: operator.index,
     bool: bool,
-}  # of elements that are stored
+}  # types of the elements that are stored
 
 
 class DeclarationError(TypeError):
@@ -73,14 +73,16 @@ class Variable:
         self.start: Value = _flatten(declared) if is_several(declared) else declared
         self.unit = unit
         self.description = description
-        self.is_described = True  # by the declaration itself; false: by a record's class
+        self.is_described = True  # False if the description is the record class's
         self.frame = frame
         self.minimum = minimum
         self.maximum = maximum
         self.nominal = nominal
         self.columns = columns
         width = declared.shape[1] if isinstance(declared, Matrix) else columns
-        self.shape = (self.size // width, width) if width and self.is_array else None  # rows and columns of a matrix
+        self.shape = (
+            (self.size // width, width) if width and self.is_array else None
+        )  # numbers of rows and columns of a matrix
         self.is_vector = (
             vector
             and self.shape is None

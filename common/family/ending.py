@@ -36,6 +36,6 @@ def end_after(process: int) -> None:
 
 
 def _wait_and_end(process: int) -> None:
-    with suppress(psutil.Error):  # it has ended
+    with suppress(psutil.Error):  # raised if the process has ended
         psutil.Process(process).wait()
     os._exit(1)

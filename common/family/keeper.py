@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 
-NOT_RUN = 126  # the exit status of a program that cannot be run, as shells have it
+NOT_RUN = 126  # exit status for a program that cannot be run, as in shells
 
 
 def main() -> None:
@@ -31,7 +31,7 @@ def main() -> None:
 
 
 def _kill_after_input(process: subprocess.Popen[bytes]) -> None:
-    os.read(0, 1)  # nothing is ever written
+    os.read(0, 1)  # nothing is ever written, so this waits for the end of the input
     if sys.platform == "win32":
         process.kill()
     else:

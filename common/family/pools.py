@@ -53,6 +53,6 @@ class _Packed:
 
 def _begin(parent: int, work: _Packed) -> None:
     end_with_parent(parent)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
-    atexit.register(exit_process, 0)  # once its own handlers have run
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all processes; the parent decides
+    atexit.register(exit_process, 0)  # registered first, so that it runs last
     work.unpack()()

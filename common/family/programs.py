@@ -30,7 +30,7 @@ def run_program(
     The program has a separate session, so that Ctrl-C only reaches the waiting process. Raises OSError if the program
     cannot be run.
     """
-    theirs, ours = os.pipe()  # is closed with this process, which ends the keeper and the program
+    theirs, ours = os.pipe()  # the end of this process closes ``ours``, which ends the keeper and the program
     try:
         process = subprocess.Popen(
             [sys.executable, "-I", "-S", keeper.__file__, *command],

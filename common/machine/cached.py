@@ -33,7 +33,7 @@ def cached_file(path: Path, make: Callable[[], bytes]) -> Path:
     if path not in _substitutes:
         content = make()
         try:
-            with _writing:  # the checksum first: a file without one is not said to be damaged
+            with _writing:  # the checksum first: a file without its checksum is not reported as damaged
                 write_atomically(path.with_suffix(CHECKSUM), hashlib.sha256(content).hexdigest().encode())
                 write_atomically(path, content)
         except OSError as error:
@@ -50,7 +50,7 @@ def _has_checksum(path: Path) -> bool:
     try:
         checksum = path.with_suffix(CHECKSUM).read_bytes()
         digest = hashlib.sha256(path.read_bytes()).hexdigest().encode()
-    except OSError:  # missing, or found out when it is written
+    except OSError:  # missing; other errors occur again when it is written
         return False
     if digest != checksum:
         warn_damaged(path)

@@ -6,7 +6,7 @@ import psutil
 
 from ..bounds import MEMORY_FRACTION, ExcessError
 
-SMALL = 1e8  # bytes, up to which the free memory is not read
+SMALL = 1e8  # bytes, up to which the free memory is not queried
 
 
 def check_room(columns: int, rows: float, step: float, things: str = "signals") -> None:

@@ -136,7 +136,7 @@ class ThrustAllocation(Allocation):
         """Output the demanded direction and timing with their lead times."""
         self.thrust_direction = self.demanded_direction
         self.thrust_direction_rate = self.demanded_direction_rate
-        # an earlier reference time advances the direction at any time
+        # an earlier reference time gives the direction in advance, at any time
         self.command_time = self.demand_time - self.direction_lead
         self.burn_duration = self.duration() + self.direction_lead
 
@@ -149,7 +149,7 @@ class ThrustAllocation(Allocation):
         goal = goal / norm(goal)
         now = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         now = now / norm(now)
-        # a direction and its rate cannot express a turn of 90 deg or more in one step
+        # a direction with a constant rate cannot turn by 90 deg or more in one step
         ahead, left = turn_towards(now, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
         if left > 0.0 and self.status == AllocationStatus.GOOD:
             self.status = AllocationStatus.LIMITED

@@ -113,7 +113,7 @@ class AttitudeControl(Block):
         """Return a vector in planned body axes transformed to the true body axes."""
         square = dot(self.attitude_error, self.attitude_error)
         if square > 1.0:
-            square = 1.0  # the sine of an angle; angles beyond 90 deg look smaller
+            square = 1.0  # the error is the sine of an angle, so angles beyond 90 deg are taken as smaller ones
         scalar = math.sqrt(0.5 * (1.0 + math.sqrt(1.0 - square)))
         return to_body(quaternion(scalar, self.attitude_error / (2.0 * scalar)), v)
 
@@ -140,7 +140,7 @@ class AttitudeControl(Block):
         rate = planned + self.rate_error
         acceleration = acceleration + cross(planned, rate) - m
         momentum = self.inertia * rate + self.gyro_momentum
-        # half a period later: the momentum in axes of the turning body, and its angular velocity
+        # angular momentum in the axes of the turning body, and angular velocity, half a period later
         momentum = momentum + half * (jets - cross(rate, momentum))
         rate = rate + half * acceleration
         self.torque_command = cross(rate, momentum) + self.inertia * acceleration - jets

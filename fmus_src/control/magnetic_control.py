@@ -6,7 +6,7 @@ from ..interfaces.ports.space import MagneticMode
 from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 
-WEAKEST_FIELD = 1e-6  # T
+WEAKEST_FIELD = 1e-6  # T, below which no dipole is commanded
 
 
 class MagneticControlStatus(Enumeration):

@@ -6,7 +6,7 @@ from ..mathlib.orbits.attitude import angle_rates, evaluate_angles
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
-WORTHWHILE = 0.3  # of the commanded rate; a smaller change does not warrant a pulse
+WORTHWHILE = 0.3  # fraction of the commanded rate; a smaller change does not warrant a pulse
 
 
 class OrbitalArrivalControl(OrbitalControl):

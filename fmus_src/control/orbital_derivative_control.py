@@ -16,7 +16,7 @@ from ..mathlib.orbits.attitude import (
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
-SINGULAR = 1e9  # |A| |A^-1| by their largest elements, above which A counts as singular
+SINGULAR = 1e9  # A counts as singular if the product of the largest elements of A and A^-1 exceeds this number
 
 
 class OrbitalDerivativeControl(OrbitalControl):
@@ -103,7 +103,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         closed[RATES, ANGLES] = n @ a[ANGLES, ANGLES] - s0 @ n
         closed[RATES, RATES] = n + s0
         undone, placed = inverse(closed)
-        # u = J (closed - a) x on the rows of the rates, and x = closed^-1 x'
+        # u = J (closed - a) x in the rows of the rates, with x = closed^-1 x'
         gain = identity(6) - a @ undone
         self.angle_gain = self.inertia @ gain[RATES, ANGLES]
         self.rate_gain = self.inertia @ gain[RATES, RATES]

@@ -21,7 +21,7 @@ TABLE, DECLARATIONS = ".csv", ".toml"
 KEYS = {"truth": str, "step_size": float, "stop_time": float, "parameters": dict, "tolerances": dict}
 BOUNDS = ("absolute", "relative")
 PARAMETER_TYPES = {"Real": (float, int), "Integer": (int,), "Boolean": (bool,)}
-Tolerances = Mapping[str, tuple[float, float]]  # of signals: absolute, relative
+Tolerances = Mapping[str, tuple[float, float]]  # by signal: absolute and relative tolerance
 
 
 class CheckError(ValueError):

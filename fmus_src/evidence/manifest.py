@@ -62,7 +62,7 @@ class Related:
     role: str
     type: str
     description: str
-    study: str | None = None  # of a report: name of its campaign, or `STABILITY`
+    study: str | None = None  # for a report: the name of its campaign, or `STABILITY`
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:

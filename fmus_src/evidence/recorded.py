@@ -19,7 +19,7 @@ def record_outputs(block_class: type[Block], check: Check) -> bytes:
     """
     try:
         return _record(block_class, check)
-    except Exception as error:  # an exception of a user's block is reported as one line
+    except Exception as error:  # any exception from a user's block is reported in one line
         problem = f"the block raises {type(error).__name__}: {error}"
         raise CheckError(f"{block_class.fmu_name}: check: {problem}; correct the block or the check") from error
 

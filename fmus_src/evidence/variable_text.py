@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..variables import Variable
 
-SHOWN = 12  # start values of a list, beyond which the first ones are enough
+SHOWN = 12  # most start values of a list that are shown; of longer lists only the first ones are
 
 
 def sized_name(variable: Variable) -> str:

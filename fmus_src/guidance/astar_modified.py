@@ -33,7 +33,7 @@ class AstarModifiedGuidance(AstarProgramme):
             e = math.sqrt(dv.x * dv.x + dv.y * dv.y + lift * lift)
             closing = norm(self.velocity) - dr.z * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
             if closing != 0.0:
-                # close to the target the formula can give a negative time, which ends the flight
+                # close to the target the formula can give a negative time, which means the end of the flight
                 self.status = TerminalStatus.GOOD
                 return distance / closing
         return 0.0

@@ -5,9 +5,9 @@ from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time
 from ..mathlib.vectors import Vector3
 from .terminal_guidance import TerminalGuidance
 
-AGREEMENT = 0.05  # of the time; if the two times are this close, a least-effort flight changes to braking
-# With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only follow errors
-# of the estimate: the flight ends.
+AGREEMENT = 0.05  # relative difference of the two times below which a least-effort flight changes to braking
+# With less than ENDING (s) to go and no root, a time of least effort of more than CHASE times the expected time would
+# only follow errors of the estimate, so the flight ends.
 ENDING = 5.0
 CHASE = 1.5
 

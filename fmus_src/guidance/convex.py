@@ -14,16 +14,16 @@ from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
 from .polynomial_guidance import GLIDE_TOLERANCE
 from .zem_zev import ZemZevGuidance
 
-LARGEST = 1e9  # m, m/s, kg, largest values for planning
-SMALLEST_MASS = 1e-3  # kg
-LOWEST_BRAKING = 0.7  # of the first time, if that brakes at about constant thrust, ...
-LOWEST_EFFORT = 0.4  # ... and if it is that of least effort: lower bounds of a search
-CLEARANCE = 5.0  # m, distance of a lowered glide slope from a start below the declared one
-OFF_COURSE = 30.0  # m from the plan at which a new plan is computed, ...
-CLOSING = 1.0  # m/s, times the time to go: the same near the end, ...
-PATIENCE = 5.0  # ... at least this time (s) after the last plan
-END_LOAD = 1.1  # thrust over the largest above which another time is chosen for ZEM/ZEV
-LATE = 1.03  # of the remaining time, above which a plan uses more of the thrust
+LARGEST = 1e9  # largest position (m), speed (m/s) and mass (kg) for planning
+SMALLEST_MASS = 1e-3  # kg, for planning
+LOWEST_BRAKING = 0.7  # lower bound of a search, as a fraction of a first time that brakes at about constant thrust
+LOWEST_EFFORT = 0.4  # the same, as a fraction of a first time of least effort
+CLEARANCE = 5.0  # m, distance of a start below the declared glide slope from a lowered one
+OFF_COURSE = 30.0  # m, deviation from the plan at which a new plan is computed
+CLOSING = 1.0  # m/s; times the time to go it is the same deviation near the end
+PATIENCE = 5.0  # s, least time between two plans
+END_LOAD = 1.1  # thrust of ZEM/ZEV over the largest thrust, above which another time is chosen
+LATE = 1.03  # multiple of the remaining time; a longer plan may use more of the thrust
 
 
 class ConvexGuidance(ZemZevGuidance):

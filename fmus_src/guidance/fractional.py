@@ -5,9 +5,9 @@ from ..kernel.enumerations import Enumeration, member
 from ..mathlib.lunar.polynomial_descent import DescentShape, is_regular
 from .polynomial_guidance import GLIDE_PRICE, SHORTEST, SPACING, TILT_PRICE, PolynomialGuidance
 
-GAINS = 4  # kr of a search: 6, 8, 10, 12
+GAINS = 4  # number of values of kr in a search: 6, 8, 10, 12
 FIRST_GAIN, GAIN_SPACING = 6.0, 2.0
-SEARCH_SHORTEST, SEARCH_SPACING = 0.5, 0.0625  # of the first time
+SEARCH_SHORTEST, SEARCH_SPACING = 0.5, 0.0625  # fractions of the first time
 
 
 class GainChoice(Enumeration):

@@ -41,7 +41,7 @@ class GravityTurnGuidance(InformedGuidance):
         return False
 
     def forget(self) -> None:
-        self.burning = self.burning and self.commanding  # a divert leaves the engine on
+        self.burning = self.burning and self.commanding  # a divert does not switch the engine off
 
     def local_gravity(self) -> tuple[Vector3, float]:
         """Return the local vertical and the magnitude of gravity, minus the centrifugal acceleration, along it

@@ -12,15 +12,15 @@ from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
 from .hover_plan import HoverPlan
 
-CYCLE_TOLERANCE = 1e-3  # of a cycle, tolerance of communication points at sample instants
-USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
-LEAST_THRUST = 0.02  # m/s2; least commanded value, to keep the direction defined
-LEAST_LEVER = 1.0  # m/s2; least thrust over mass by which a lateral demand is divided
-BEFORE_LAST_BURN = 1.0  # s, lead of the gains of the last burn
-HIGH_THRUST = 0.3  # of the largest thrust, above which measured thrust is used
+CYCLE_TOLERANCE = 1e-3  # fraction of a cycle: tolerance for communication points at sample instants
+USUAL_CYCLE = 0.1  # s, cycle assumed for the first command, before the communication step is known
+LEAST_THRUST = 0.02  # m/s2, least commanded value, which keeps the direction defined
+LEAST_LEVER = 1.0  # m/s2, least thrust over mass by which a lateral demand is divided
+BEFORE_LAST_BURN = 1.0  # s before the last burn, at which its gains begin
+HIGH_THRUST = 0.3  # fraction of the largest thrust, above which measured thrust has the high gain
 HIGH_GAIN = 0.1
 LOW_GAIN = 0.02
-LARGEST_FACTOR_ERROR = 0.5  # for larger errors the engine does not follow this command
+LARGEST_FACTOR_ERROR = 0.5  # a larger error means that the engine does not follow this command
 
 
 class HoverGuidance(HoverPlan):
@@ -143,7 +143,7 @@ class HoverGuidance(HoverPlan):
     def guide(self, time: float) -> None:
         """Process the sample at ``time`` (s)."""
         self.elapsed = time - self.sample_time
-        # nominal unless communication points miss sample instants, to exclude rounding
+        # the nominal cycle, free of rounding, unless communication points miss sample instants
         if abs(self.elapsed - self.cycle) <= CYCLE_TOLERANCE * self.cycle or not self.elapsed > 0.0:
             self.elapsed = self.cycle
         self.sample_time = time
@@ -262,7 +262,7 @@ class HoverGuidance(HoverPlan):
         self.finished = t >= self.duration and not self.sinking()
         self.reference(t)
         planned = self.plan_direction(t)
-        # beyond the end the plan's rate is 0
+        # after the end of the plan its rate is 0
         self.angular_acceleration_feed = (self.plan_rate(t + self.cycle) - self.plan_rate(t)) / self.cycle
         ahead = self.reference_thrust(t + self.engine_lag, t + self.engine_lag + self.cycle)
         self.track(planned, ahead, self.frequency(t))

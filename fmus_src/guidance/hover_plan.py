@@ -27,8 +27,8 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
 from ..units import deg
 
-LEAST_MEASURED = 0.5  # of the planned minimum; with less thrust the engine is off
-# Limits of a transfer in place of a programme.
+LEAST_MEASURED = 0.5  # fraction of the planned minimum; with less measured thrust the engine counts as off
+# Limits of a transfer that replaces a programme.
 STANDBY_SPEED = 60.0  # m/s
 STANDBY_ACCELERATION = 0.5  # m/s2
 

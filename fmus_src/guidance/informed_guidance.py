@@ -17,7 +17,7 @@ LIMIT_TILT = 4
 LIMIT_PLACE = 8
 ROUNDS = 20  # iterations until time and gravity correction agree
 AGREED = 1e-10  # s
-NEARLY_AGREED = 1e-6  # s, for long times with larger rounding errors
+NEARLY_AGREED = 1e-6  # s, accepted for long times, which have larger rounding errors
 
 
 class InformedGuidance(TerminalGuidance, interface=True):

@@ -9,7 +9,7 @@ from ..mathlib.vectors import Vector3, dot, norm, vector
 from .network_operator_law import NetworkOperatorLaw
 from .terminal_guidance import TerminalGuidance
 
-LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
+LEAST_HORIZONTAL_SPEED = 0.5  # m/s, below which the horizontal direction is kept constant
 
 
 class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
@@ -33,7 +33,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter(
         description="specific impulse of the engine, used for time_to_go"
     )
-    # the criterion of a hand-over is 6 m/s; the speed is known to 0.1 m/s
+    # hand-over is specified for 6 m/s, with a speed known to 0.1 m/s
     handover_speed = landing.HANDOVER_SPEED.parameter()
     handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()

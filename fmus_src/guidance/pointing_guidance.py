@@ -11,7 +11,7 @@ from ..mathlib.attitude.quaternion import multiply, normalise, to_body
 from ..mathlib.attitude.triad import from_axes, triad
 from ..mathlib.vectors import Vector3, Vector4, cross, dot, is_finite, norm, vector
 
-OLD = 5.0  # s, of a sample of the orbit
+OLD = 5.0  # s, age above which a sample of the orbit is old
 PARALLEL = 1e-3  # sine of the angle below which two directions are parallel
 
 

@@ -10,15 +10,15 @@ from ..mathlib.vectors import across, clip, norm, vector
 from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_THRUST, LIMIT_TILT, InformedGuidance
 
 NODES = 32  # intervals of a profile over which propellant and thrust are evaluated
-OVERLOAD_PRICE = 2000.0  # m/s for a thrust that is twice the largest
-GLIDE_PRICE = 2.0  # 1/s, m/s for a metre below the glide slope
-TILT_PRICE = 500.0  # m/s for a difference of 1 of cosines
+OVERLOAD_PRICE = 2000.0  # m/s, penalty on a thrust of twice the largest
+GLIDE_PRICE = 2.0  # 1/s, penalty (m/s) per metre below the glide slope
+TILT_PRICE = 500.0  # m/s, penalty on a difference of 1 between the cosines of tilts
 TRIALS = 25
-SHORTEST, SPACING = 0.6, 0.05  # of the first time: shortest time and spacing of the grid
+SHORTEST, SPACING = 0.6, 0.05  # shortest time and spacing of the grid, as fractions of the first time
 GOLDEN = 0.6180339887498949
 REDUCTIONS = 12
-CHECK_INTERVAL = 2.0  # s between checks of the thrust that the plan asks for
-LAST_CHECK = 10.0  # s to go, below which no checks are made
+CHECK_INTERVAL = 2.0  # s between checks of the thrust that the plan requires
+LAST_CHECK = 10.0  # s to go, below which there are no checks
 MOST_CHOICES = 30
 GLIDE_TOLERANCE = 1.0  # m, largest violation of the glide slope by a search with penalties
 

@@ -17,7 +17,7 @@ from .zem_zev import ZemZevGuidance
 
 FIRST_ITERATIONS = 40
 ITERATIONS = 3  # per cycle after the first
-FIRST_THRUST = 0.85  # of the largest
+FIRST_THRUST = 0.85  # fraction of the largest thrust
 
 
 class PoweredGuidance(ZemZevGuidance):

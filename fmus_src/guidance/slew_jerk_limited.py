@@ -9,7 +9,7 @@ from ..mathlib.jerk_limited import JerkLimits, RateProfile, follow_profile, plan
 from ..mathlib.vectors import Vector3, Vector4, across, dot, norm, vector
 from .slew_guidance import SlewGuidance, SlewProgress
 
-ALIGNED = 1e-9  # rad, rotation without axis; fraction of rate_limit allowed across the axis
+ALIGNED = 1e-9  # rad, rotation that has no axis; also the fraction of rate_limit allowed across the axis
 
 
 class SlewStatus(Enumeration):

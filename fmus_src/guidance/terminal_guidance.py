@@ -8,9 +8,9 @@ from ..kernel.integrators import STEP_ROUNDING
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 
-# Cycles; a shorter last burn would need a large thrust for small misses.
+# Least last burn in cycles; a shorter one would need a large thrust for small misses.
 LAST_BURN = 1.5
-# Most solutions at the start until time to go and gravity correction agree to SETTLED of the time.
+# Largest number of solutions at the start; they end when the time to go changes by less than SETTLED of it.
 SETTLING = 20
 SETTLED = 1e-10
 
@@ -278,7 +278,7 @@ class TerminalGuidance(Block, interface=True):
         if self.terminal_step == TerminalStep.EXACT:
             self.command.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():
-                # from command_time on, which lies earlier if the last command is held
+                # the duration is measured from command_time, which is earlier if the last command is held
                 self.command.burn_duration = time - self.command.command_time + self.time_to_go
         elif self.time_to_go < self.cycle:
             self.finished = True

@@ -19,10 +19,10 @@ F = TypeVar("F", bound=Callable)
 DOMAIN_ERROR, RANGE_ERROR = "math domain error", "math range error"
 EITHER_ERROR = ""  # depends on the argument
 
-VERSION = 1  # of the results: incremented with every change of a function's bits
+VERSION = 1  # version of the results: incremented when a change affects the bits of any function
 
-# Functions of one argument: exception for an infinite result of a finite argument; None if there is
-# none.
+# By function of one argument: the exception for an infinite result of a finite argument, or None if no
+# result is infinite.
 FAULTS: dict[Any, str | None] = {}
 
 

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from .records import Field, Record
 from .vector_types import Vector3
 
-STEP_ROUNDING = 1e-9  # tolerance of multiples of a step or period, as a fraction of it
+STEP_ROUNDING = 1e-9  # tolerance for multiples of a step or period, as a fraction of it
 
 State = TypeVar("State")  # a float, a vector or a record
 Derivatives = Callable[..., Any]  # (t, state, *inputs) -> rate of the state

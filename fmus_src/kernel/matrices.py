@@ -11,8 +11,8 @@ __all__ = [
     "inverse_quadratic_form", "is_positive_definite", "largest_eigenvalue", "matrix", "mirror", "outer", "zeros",
 ]  # fmt: skip
 
-SQUARINGS = 30  # of a matrix, for its largest eigenvalue to 1e-9
-TERMS = 16  # of the exponential's series: at a norm of 1/2 the remainder is below 1e-19
+SQUARINGS = 30  # squarings of a matrix that give its largest eigenvalue to 1e-9
+TERMS = 16  # terms of the exponential's series: for a norm of 1/2 the remainder is below 1e-19
 
 
 def diagonal(v: Vector) -> Matrix:

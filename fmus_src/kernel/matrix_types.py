@@ -29,7 +29,7 @@ class Matrix:
     """Matrix of floats or ints."""
 
     __slots__ = ("rows",)
-    __array_ufunc__ = None  # a number of numpy's times a matrix is ours
+    __array_ufunc__ = None  # makes numpy leave its number times a matrix to `Matrix`
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, rows: list[list]) -> None:

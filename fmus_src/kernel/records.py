@@ -87,7 +87,7 @@ class Record(metaclass=_RecordType):
     def __reduce__(self) -> tuple:
         return type(self).of_elements, (self.elements(),)
 
-    if TYPE_CHECKING:  # written for each class
+    if TYPE_CHECKING:  # generated for each class
 
         def __init__(self, **values: Any) -> None: ...
 

@@ -54,7 +54,7 @@ class Vector:
     def __reduce__(self) -> tuple:
         return vector, self.elements()
 
-    if TYPE_CHECKING:  # written for each size
+    if TYPE_CHECKING:  # generated for each size
 
         def elements(self) -> tuple[float, ...]:
             """Return the components as a tuple."""
@@ -86,7 +86,7 @@ def _write_methods(kind: type[Vector]) -> None:
     refusal = [
         "elif isinstance(factor, Vector):",
         f"    raise TypeError(f'a vector of {len(names)} times one of {{len(factor)}}')",
-    ]  # a number type's own operator would multiply element by element
+    ]  # the operator of numpy's number would multiply element by element
     for name, sign, refused in (("__mul__", "*", refusal), ("__truediv__", "/", [])):
         by_component = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor.{{0}}")]
         by_number = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor")]

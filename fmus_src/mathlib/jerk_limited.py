@@ -13,7 +13,7 @@ import math
 from ..kernel.records import Field, Record
 
 TURN = 2.0 * math.pi
-HALVINGS = 200  # more than a double needs
+HALVINGS = 200  # more halvings than the digits of a double need
 
 
 class JerkLimits(Record):

@@ -11,7 +11,7 @@ Source: Franklin, Powell and Workman 1998, section 6.1.2; derivation in docs/sys
 from ..kernel.records import Field, Record
 from .vectors import Vector3, vector
 
-NO_STATE = 1e-12  # of the input gain; a smaller state gain has no effect on the output
+NO_STATE = 1e-12  # fraction of the input gain; a smaller state gain has no effect on the output
 
 
 class LeadLaw(Record):

@@ -28,8 +28,8 @@ from ..kernel.matrices import Matrix
 from .vectors import clip
 
 SIZE = 16
-SOURCES = 6  # the first nodes
-MAXIMUM_EDGES = 120  # above the diagonal
+SOURCES = 6  # number of source nodes, which are the first ones
+MAXIMUM_EDGES = 120  # elements above the diagonal
 EPSILON = 1e-8
 LARGEST = 1e8
 LOG_LARGEST = 18.420680743952367  # ln LARGEST = -ln EPSILON, where exp saturates

@@ -8,7 +8,7 @@ computes to the last bits.
 import math
 
 LARGEST = 1e15  # larger roots are ignored
-SETTLED = 1e-12  # of the root; a smaller Newton step leaves only rounding errors
+SETTLED = 1e-12  # relative to the root; after a smaller Newton step only rounding errors remain
 
 
 def evaluate(c: list, x: float) -> float:

@@ -6,7 +6,7 @@ from ..kernel.matrices import zeros
 from ..mathlib.actuators.wheels import WHEELS, drag_torque, unit_axes
 from ..mathlib.vectors import Vector3, Vector4, clip, vector
 
-ROUNDING = 1e-9  # by which a command may exceed its limit unreported
+ROUNDING = 1e-9  # relative excess of a command over its limit that is not reported
 
 
 class SpinningWheels(Block, interface=True):

@@ -163,7 +163,7 @@ class AttitudeFilter(Block):
         disturbance only.
         """
         momentum_body = self.inertia * self.angular_velocity + self.last_momentum
-        # half of the change by jets and disturbance over h, and the angular velocity in the middle
+        # half of the change by jets and disturbance over h; the rotation has the rate of the middle
         impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
         selected = 0.5 * (h * cross(self.angular_velocity, momentum_body) + self.gyro_momentum - self.last_momentum)
         rotation = from_rotation_vector(h * (self.angular_velocity + (impulse_body - selected) / self.inertia))
@@ -227,7 +227,7 @@ class AttitudeFilter(Block):
             self.status = SampleStatus.NO_ATTITUDE
             return
         if self.method == FilterMethod.MEAN:
-            # the attitude is the planned one turned by the error
+            # the estimated attitude is the planned attitude rotated by the error
             self.quaternion = multiply(self.planned_quaternion, from_rotation_vector(self.attitude_error))
             return
         self.attitude_error = angle_error(self.planned_quaternion, self.quaternion)

@@ -22,7 +22,7 @@ from .multiplicative_filter import MultiplicativeFilter
 
 STAR, SUN, FIELD = 0, 1, 2  # sensors with separate counts of rejected samples
 TURNS = 8  # sample periods by which a star sample may be delayed
-COARSE = 30.0  # s without a star sample
+COARSE = 30.0  # s without a star sample, after which the status is coarse
 TRIAD_SINE = 0.17  # sine of the least angle between two directions for an attitude
 
 
@@ -67,7 +67,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     turn_ends = State([0.0] * TURNS, unit="s", description="end times of the stored rotations, newest first")
 
     def initialize(self) -> None:
-        self.star_counted = 0  # a count of 0 is no sample, any other one is new
+        self.star_counted = 0  # a count of 0 means no sample; any other count is a new sample
         self.sun_counted = self.sun_count
         self.field_counted = self.field_count
         self.last_star = self.start_time

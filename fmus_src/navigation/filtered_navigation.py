@@ -12,7 +12,7 @@ from ..mathlib.vectors import Vector3, norm, vector
 from ..units import deg
 from .inertial_navigation import InertialNavigation
 
-SENSOR_ERRORS = block(6, 9)  # of the states
+SENSOR_ERRORS = block(6, 9)  # indices of these states
 ALTIMETER = 0
 VELOCIMETER = 1
 CAMERA = 2

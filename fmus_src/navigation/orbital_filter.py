@@ -12,7 +12,7 @@ from ..mathlib.vectors import Vector3, vector
 from ..units import deg
 from .attitude_observer import AttitudeObserver, ObserverStatus
 
-BIASES = block(3, 3)  # after the angles in the covariance
+BIASES = block(3, 3)  # indices of the gyro biases in the covariance, after the angles
 
 
 class OrbitalFilter(AttitudeObserver):

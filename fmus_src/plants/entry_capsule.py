@@ -29,7 +29,7 @@ from ..units import deg
 
 KNOTS = 13
 MACHS = 10
-ANGLE_STEP = deg(5.0)  # between the knots
+ANGLE_STEP = deg(5.0)  # distance between the knots of the tables
 HEAD_ON = 1e-9  # sine of the spatial angle of attack below which the aerodynamic roll is taken as 0
 MACH_NUMBERS = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]
 AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNOTS)])

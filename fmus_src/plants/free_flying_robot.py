@@ -164,7 +164,7 @@ class FreeFlyingRobot(Block):
         self.turn_gimbals(0.5 * h)
         s4 = s1 + h * k3
         k4 = self.derivatives(s4)
-        # the zeros avoid sums of -0
+        # adding 0 avoids results of -0
         zero = vector(0.0, 0.0, 0.0)
         still = RobotRotation(quaternion=vector(0.0, 0.0, 0.0, 0.0), angular_momentum=zero)
         end = s1 + h * (still + k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0

@@ -14,7 +14,9 @@ from ..models.exposed_surfaces import ExposedSurfaces
 from ..models.gravity_field import GravityField
 from ..models.spinning_wheels import SpinningWheels
 
-FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then adds (W h)^5/144 = 1e-3 of damping
+FASTEST_MODE = (
+    0.7  # rad, largest phase W h of a mode per step, for which Runge-Kutta adds a damping ratio (W h)^5/144 of 1e-3
+)
 
 
 class SpacecraftStatus(Enumeration):

@@ -9,7 +9,7 @@ from ..mathlib.rng import normals
 from ..mathlib.vectors import is_finite
 from .random_sensor import RandomSensor
 
-TIME = 6  # columns of samples; 0 to 2 position, 3 to 5 velocity
+TIME = 6  # column of the time in samples; columns 0 to 2 are position, 3 to 5 velocity
 GOOD = 7
 
 

@@ -64,7 +64,7 @@ class InertialSensor(Block):
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
-        x = normals(self.generator)  # of one axis: bias, scale factor, misalignment
+        x = normals(self.generator)  # for one axis: bias, scale factor, misalignment
         y = normals(self.generator)
         z = normals(self.generator)
         self.bias = self.bias_sigma * vector(x[0], y[0], z[0])

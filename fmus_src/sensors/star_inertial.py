@@ -14,7 +14,7 @@ from ..mathlib.rng import normals
 from ..mathlib.vectors import Vector3, across, dot, norm
 from .random_sensor import RandomSensor
 
-TIME = 4  # columns of samples; 0 to 3 the attitude
+TIME = 4  # column of the time in samples; columns 0 to 3 are the attitude
 GOOD = 5
 
 

@@ -14,7 +14,7 @@ from ..units import deg
 from .random_sensor import RandomSensor
 
 HEADS = 6
-BRIGHTNESS = 0.5  # of the Sun's disk, for the fine head
+BRIGHTNESS = 0.5  # visible fraction of the Sun's disk above which the fine head measures
 
 
 class SunSensorStatus(Enumeration):

@@ -4,8 +4,8 @@ from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import landing
 from ..interfaces.ports.landing import HoverStatus, TerminalStatus
 
-CYCLE_TOLERANCE = 1e-6  # of a cycle: communication points carry rounding
-TIME_TOLERANCE = 1e-15  # of the time
+CYCLE_TOLERANCE = 1e-6  # fraction of a cycle, since communication points contain rounding errors
+TIME_TOLERANCE = 1e-15  # fraction of the time
 
 
 class LandingInputs(Block, interface=True):

@@ -8,7 +8,7 @@ from ..mathlib.vectors import vector
 from .landing_inputs import LandingInputs
 
 NEVER = -1.0  # s; time of an event that has not occurred
-ROUNDING = 1e-6  # s, allowed for in times of communication points
+ROUNDING = 1e-6  # s, rounding allowed in times of communication points
 
 
 class LandingPhase(Enumeration):

@@ -8,7 +8,7 @@ from .hover_phases import HoverPhases
 from .landing_sequence import ROUNDING, LandingPhase, LandingStatus
 from .orbit_phases import OrbitPhases, PhaseEnd
 
-LEAST_MARGIN = 0.9  # of the dry weight; the least thrust must be smaller
+LEAST_MARGIN = 0.9  # fraction of the dry weight that the least thrust must not reach
 
 
 class LandingSequencer(OrbitPhases, HoverPhases):

@@ -7,7 +7,7 @@ from ...mathlib.actuators.gyros import ISOTROPIC_ANGLES
 from ...ports import Port
 from ...units import deg
 
-LARGEST = 1e100  # larger commands count as not finite; smaller ones overflow no kernel
+LARGEST = 1e100  # larger commands count as not finite; smaller ones cause no overflow in kernels
 
 COMMAND_COUNT = Port(0, description="number of force commands since the start; a change signals a new command")
 DELAY_FRACTION = Port(

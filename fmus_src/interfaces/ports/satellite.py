@@ -17,7 +17,7 @@ MOTOR_TORQUES = Port(
     [0.0] * 4, unit="N.m", description="commanded torque of each motor on its wheel about the spin axis"
 )
 MOTOR_TORQUE_LIMIT = Port(0.2, unit="N.m", minimum=0.0, description="largest magnitude of a wheel motor's torque")
-# the diagonals of a cube's upper half: a pyramid about z, alike for torques about x, y and z
+# the diagonals of a cube's upper half: a pyramid about z, with equal torque capability about x, y and z
 WHEEL_AXES = Port(
     [*[DIAGONAL] * 3, -DIAGONAL, *[DIAGONAL] * 2, *[-DIAGONAL] * 2, *[DIAGONAL] * 2, -DIAGONAL, DIAGONAL],
     unit="1",
@@ -60,4 +60,4 @@ INERTIA = Port(
     columns=3,
     description="inertia matrix of the satellite about its centre of mass, wheels included as if not spinning",
 )
-WHEEL_MOMENTUM = body.ANGULAR_MOMENTUM  # of the wheels relative to the body, Js W g summed
+WHEEL_MOMENTUM = body.ANGULAR_MOMENTUM  # sum of Js W g over the wheels, relative to the body

@@ -14,7 +14,7 @@ from .two_doubles import product_error
 
 ROOT_HALF = 0.7071067811865476
 CENTRE = 3.75
-END = 39.0  # the distribution of -END is below the smallest double
+END = 39.0  # the distribution function at -END is below the smallest double
 
 TAIL_0 = 1.2375126308378275
 TAIL_1 = -0.140240598585547

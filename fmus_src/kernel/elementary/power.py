@@ -6,7 +6,7 @@ from .exponential import exp_two, scale
 from .logarithm import log_two
 from .two_doubles import product_error
 
-WHOLE = 4503599627370496.0  # 2^52: from here on every double is an integer, from twice that an even one
+WHOLE = 4503599627370496.0  # 2^52: larger doubles are integers, and from 2^53 on even integers
 
 
 def is_odd(y: float) -> bool:

@@ -14,13 +14,13 @@ TWO_OVER_PI = 0.6366197723675814
 HALF_PI = 1.5707963267948966
 HALF_PI_TAIL = 6.123233995736766e-17
 QUARTER_PI = 0.7853981633974483
-PART_1 = 1.5707963267341256  # of pi/2: 33 bits, so that whole numbers to 2^20 times it are exact
+PART_1 = 1.5707963267341256  # first 33 bits of pi/2, so that its product with an integer up to 2^20 is exact
 PART_2 = 6.077100506303966e-11
 PART_3 = 2.0222662487111665e-21
 PART_4 = 8.4784276603689e-32
 TAIL_3 = 2.0222662487959506e-21  # PART_3 + PART_4
 DIGIT = 16777216.0  # 2^24
-DIGITS = 8  # of 24 bits in a product: 120 bits remain after 60 that cancel
+DIGITS = 8  # digits of 24 bits in a product: 120 bits remain after 60 that cancel
 
 # 2/pi in digits of 24 bits
 TWO_OVER_PI_DIGITS = (

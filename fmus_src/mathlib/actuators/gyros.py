@@ -16,10 +16,10 @@ from ...kernel.functions import acos, atan2, cos, sin
 from ...kernel.matrices import Matrix, add_product, diagonal, identity, matrix, zeros
 from ..vectors import Vector2, Vector3, Vector4, vector
 
-ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5, for equal properties of the three axes at zero momentum
-# acos(1/sqrt(3)) off -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
+ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5, which makes the three axes equivalent at zero momentum
+# acos(1/sqrt(3)) from -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
 ISOTROPIC_ANGLES = (0.6154797086703873, -0.6154797086703873, 3.7570723622601803, 2.5261129449194057)
-LEAST_SQUARE = 1e-12  # of a and b; smaller values count as on a pair's surface y = 2 or z = 2
+LEAST_SQUARE = 1e-12  # least square of a and b; below it a pair counts as fully extended across x (y = 2 or z = 2)
 
 
 def cluster_momentum(angles: Vector4) -> Vector3:
@@ -78,7 +78,7 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
     """Return the angles (rad) of a pair, nearest to ``near``, for its momentum along x and ``across`` to x."""
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
-        half = 1.0  # by a rounding error
+        half = 1.0  # exceeded by a rounding error
     direction = atan2(across, along)
     opening = acos(half)
     return vector(nearest_turn(direction + opening, near.x), nearest_turn(direction - opening, near.y))
@@ -115,7 +115,7 @@ def distribute_rates(
     sine_2 = sin(fourth - third)
     if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
         return False, none
-    # change left to x1 and x2 when y and z change at constant u and v
+    # change of x1 and x2 beyond the one that y and z cause at constant u and v
     fall_1 = u * y * momentum_rate.y / a
     fall_2 = v * z * momentum_rate.z / b
     u_rate = (q * (momentum_rate.x + fall_1 + fall_2) - b * gain * residual) / common

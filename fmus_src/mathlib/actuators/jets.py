@@ -16,7 +16,7 @@ from ...kernel.records import Field, Record
 from ..vectors import Vector3, cross, vector
 
 JETS = 8
-NEGLIGIBLE = 1e-12  # of the largest; a smaller strength counts as 0
+NEGLIGIBLE = 1e-12  # fraction of the largest strength; smaller ones count as 0
 
 # Signs of corners 1 to 8: of forces, of torques, and of all three axes, which give no wrench.
 X = (1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0)
@@ -136,7 +136,7 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
     for p in range(JETS):
         thrust[p] = scale * (thrust[p] - minimum)
         if thrust[p] > maximum:
-            thrust[p] = maximum  # by a rounding error
+            thrust[p] = maximum  # exceeded by a rounding error
     return scale
 
 
@@ -214,7 +214,7 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
         scale = 2.0 * highest / (sizes - smallest)
     best = math.inf
     for candidate in range(16):
-        # the lattice point below or above on each axis, of even or odd numbers
+        # on each axis the even or odd level below or above
         odd = float(candidate % 2)
         above = candidate // 2
         cost = 0.0

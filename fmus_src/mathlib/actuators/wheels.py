@@ -12,7 +12,7 @@ from ...kernel.matrices import Matrix, inverse, zeros
 from ..vectors import Vector3, Vector4, clip, cross, dot, norm, vector
 
 WHEELS = 4
-SMALLEST_VOLUME = 1e-9  # of three unit axes; below it they count as coplanar
+SMALLEST_VOLUME = 1e-9  # volume spanned by three unit axes, below which they count as coplanar
 
 
 def unit_axes(rows: Matrix) -> Matrix:
@@ -62,7 +62,7 @@ def null_direction(a: Matrix) -> Vector4:
     length = math.sqrt(n.w * n.w + n.x * n.x + n.y * n.y + n.z * n.z)
     for j in range(WHEELS):
         if norm(a[0:3, j]) == 0.0:
-            length = 0.0  # the wheel's axis is then the null direction, and is not used
+            length = 0.0  # wheel j alone is then the null direction, and shifts have no effect
     if length > SMALLEST_VOLUME:
         if n.w < 0.0:
             return -n / length

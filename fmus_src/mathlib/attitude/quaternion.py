@@ -9,7 +9,7 @@ import math
 from ...kernel.functions import atan2, cos, sin
 from ..vectors import Vector3, Vector4, cross, norm, vector
 
-SHORTEST = 0.5  # least length of a quaternion that is an attitude; a lost tracker gives zeros
+SHORTEST = 0.5  # least length of a quaternion that counts as an attitude; a tracker without attitude outputs zeros
 
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:

@@ -12,9 +12,9 @@ import math
 from ...kernel.functions import exp, log
 from .standard_atmosphere import EARTH_RADIUS, GAS_CONSTANT, GRAVITY, HEAT_RATIO, Air, air_in_layers
 
-COLD = 186.65  # K, from COLD_FROM on
-COLD_FROM = 85000.0  # m, geopotential
-TABLE_FROM = 94000.0  # m
+COLD = 186.65  # K, temperature from COLD_FROM to TABLE_FROM
+COLD_FROM = 85000.0  # m, geopotential height
+TABLE_FROM = 94000.0  # m, height
 ROWS = 14
 
 

@@ -10,12 +10,12 @@ import math
 from ...kernel.functions import exp, log, pow
 from ...kernel.records import Field, Record
 
-EARTH_RADIUS = 6356766.0  # m, for geopotential heights
+EARTH_RADIUS = 6356766.0  # m, used for geopotential heights
 GRAVITY = 9.80665  # m/s2
-GAS_CONSTANT = 287.053  # J/(kg K), of air
+GAS_CONSTANT = 287.053  # J/(kg K), for air
 HEAT_RATIO = 1.4
-TOP = 86000.0  # m, of the layers
-THIN_SOUND = 274.096  # m/s, above
+TOP = 86000.0  # m, height of the top of the layers
+THIN_SOUND = 274.096  # m/s, speed of sound above TOP
 
 
 class Air(Record):

@@ -15,7 +15,7 @@ from .kalman import predict
 
 ROTATION = block(0, 3)
 BIAS = block(3, 3)
-SMALL = 1e-6  # rad, below which the factors of [turn] are those of zero rotation
+SMALL = 1e-6  # rad, rotation below which the factors of [turn] have their limits for zero rotation
 
 
 def transition(turn: Vector3, h: float) -> Matrix:

@@ -89,14 +89,14 @@ def predict_errors(
         position, velocity = propagate(p[POSITION, j], p[VELOCITY, j], a, up, gradient, h)
         p[POSITION, j] = position
         p[VELOCITY, j] = velocity
-    for i in range(MOTION_STATES):  # (F P) F'; the rest by symmetry
+    for i in range(MOTION_STATES):  # (F P) F'; the other elements by symmetry
         if sensing:
             a = sensor_addition(p[i, BIAS], p[i, SCALE_FACTOR], p[i, ROTATION], f)
         position, velocity = propagate(p[i, POSITION], p[i, VELOCITY], a, up, gradient, h)
         p[i, POSITION] = position
         p[i, VELOCITY] = velocity
     if sensing:
-        # an increment's error moves position by half a step times itself
+        # the error of an increment changes the position by half a step times the error
         of_velocity = walk * h * identity(3)
         of_both = 0.5 * h * of_velocity
         p[POSITION, POSITION] += 0.5 * h * of_both

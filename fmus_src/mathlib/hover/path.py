@@ -12,14 +12,14 @@ from .motion import HoverVehicle, end_motion
 from .shape import HoverProgramme, without_programme
 from .solution import HoverSolution, PlanKind, solve
 
-NEAR = 0.01  # of the drop, horizontal distance of the first tilted programme
-GROWTH = 1.5  # of x from one programme without first burn to the next
+NEAR = 0.01  # horizontal distance of the first tilted programme, as a fraction of the drop
+GROWTH = 1.5  # factor on x from one programme without first burn to the next
 GROWTH_WITH_FIRST_BURN = 1.2
 LEAST_GROWTH = 1.03
-LARGEST_STRETCH = 0.06  # of the end, from one programme to the next
+LARGEST_STRETCH = 0.06  # largest change of the end time from one programme to the next, as a fraction of it
 LEAST_STRETCH = 0.001
-NEARER = 0.9  # of the largest x without first burn, at which a first burn begins
-NEARER_STILL = 0.2  # of it, if no first burn begins there
+NEARER = 0.9  # fraction of the largest x without first burn, at which a first burn begins
+NEARER_STILL = 0.2  # decrease of this fraction if no first burn begins there
 BEGINNINGS = 4  # number of attempts
 ROOM = 1.25  # factor on the end time of a programme in which a first burn begins
 LARGEST_PATH = 60  # programmes
@@ -65,7 +65,7 @@ def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSol
     last = end_motion(replace(p, t5=p.t7 - turn), vehicle)
     if not last.exists:
         return upright
-    # u first + v last = (x, 0), in units of TILT
+    # solves u first + v last = (x, 0) for u and v in units of TILT
     determinant = first.x * last.x_rate - first.x_rate * last.x
     if determinant == 0.0:
         return upright

@@ -14,9 +14,9 @@ from .solution import HoverSolution, PlanKind, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m, horizontal distance below which the vertical programme is used
 FIRST_WIDTH = 0.05  # s, initial value of a first burn's width for Newton's method
-WIDENING = 1.3  # of a first burn, from one programme to the next
-SECTION = 0.6180339887498949  # golden
-TIME_SETTLED = 1e-3  # s, of the best end
+WIDENING = 1.3  # factor on the width of a first burn from one programme to the next
+SECTION = 0.6180339887498949  # golden section
+TIME_SETTLED = 1e-3  # s, tolerance of the best end time
 LARGEST_PATH = 60  # programmes
 
 
@@ -159,7 +159,7 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
                 end = p.t7 - (1.0 - SECTION) * (p.t7 - low)
             trial = ending(end, x, y, vehicle, p)
             value = propellant_of(trial, vehicle)
-            outside = end  # of the new bracket
+            outside = end  # bound of the new bracket
             if value < minimum:
                 outside = p.t7
                 minimum = value

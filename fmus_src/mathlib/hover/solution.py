@@ -12,10 +12,10 @@ from ..vectors import Vector4, vector
 from .motion import HoverVehicle, end_motion, propellant
 from .shape import HoverProgramme, shape_of
 
-SETTLED = 1e-9  # of a residual, with lengths in units of 10 m
+SETTLED = 1e-9  # tolerance of a residual, with lengths in units of 10 m
 ITERATIONS = 12
-LEAST_PART = 0.1  # of a Newton step
-DIFFERENCE = 1e-6  # s
+LEAST_PART = 0.1  # smallest fraction of a Newton step
+DIFFERENCE = 1e-6  # s, step of finite differences
 
 
 class PlanKind(Enumeration):

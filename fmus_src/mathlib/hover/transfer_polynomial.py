@@ -12,18 +12,18 @@ from ...kernel.functions import exp
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, clip, cross, dot, norm, vector
 
-SAMPLES = 41  # of a transfer at which its limits are evaluated
+SAMPLES = 41  # points of a transfer at which its limits are evaluated
 
-# Largest speed and acceleration from rest to rest over a way D, in D/T and D/T^2: r' = 140 s^3 (1 - s)^3 D/T.
+# Largest speed and acceleration from rest to rest over a distance D, in D/T and D/T^2: r' = 140 s^3 (1 - s)^3 D/T.
 FASTEST = 2.1875
 HARDEST = 7.5132
-SHORTEST = 10.0  # s
+SHORTEST = 10.0  # s, least duration of a transfer from rest
 
 # Durations tried for a capture: FIRST GROWTH^k, k < TRIALS.
 FIRST = 8.0  # s
 GROWTH = 1.02
 TRIALS = 150
-EXCESS_PRICE = 1000.0  # m/s for a limit exceeded by 100 %
+EXCESS_PRICE = 1000.0  # m/s, penalty on a limit exceeded by 100 %
 
 
 class Transfer(Record):
@@ -86,7 +86,7 @@ def transfer(
     v = speed * duration
     a = 0.5 * acceleration * duration * duration
     j = jerk * duration * duration * duration / 6.0
-    # end values and derivatives by s that the first four terms leave
+    # end values, with derivatives by s, minus the contributions of the first four terms
     e0 = goal - position - v - a - j
     e1 = -v - 2.0 * a - 3.0 * j
     e2 = -2.0 * a - 6.0 * j

@@ -18,8 +18,8 @@ from ...kernel.functions import pow
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, dot, vector
 
-PASSES = 8  # of Newton's method for the time of a jerk, as flown by Apollo
-SETTLED = 1e-6  # of the time
+PASSES = 8  # iterations of Newton's method for the time of a jerk, as many as Apollo performed
+SETTLED = 1e-6  # relative change of the time
 
 
 class DescentShape(Record):

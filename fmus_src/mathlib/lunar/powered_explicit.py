@@ -16,13 +16,13 @@ from ...kernel.functions import exp, expm1, log
 from ...kernel.records import Field, Record, replace
 from ..vectors import Vector3, clip, dot, norm
 
-MOST_BURNT = 0.999  # of tau, largest time to go
-SETTLED = 1e-6  # of the time to go
+MOST_BURNT = 0.999  # largest time to go, as a fraction of tau
+SETTLED = 1e-6  # relative change of the time to go
 SHORTEST = 1e-3  # s, least time to go
 LARGEST_IMPULSE = 20.0  # in units of the exhaust speed
-SMALLEST_SPREAD = 1e-9  # of S T, least magnitude of Q - S K
-LOWEST_OF_MINIMUM = 0.5  # of the least thrust,
-MOST_OF_MAXIMUM = 1.3  # of the largest thrust: bounds of the thrust in an iteration
+SMALLEST_SPREAD = 1e-9  # least magnitude of Q - S K, as a fraction of S T
+LOWEST_OF_MINIMUM = 0.5  # least thrust in an iteration, as a fraction of the minimum thrust
+MOST_OF_MAXIMUM = 1.3  # largest thrust in an iteration, as a fraction of the maximum thrust
 
 
 class SteeringState(Record):

@@ -77,7 +77,7 @@ def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     height = evaluate(c, peak)
     if not height > 0.0:
         return 0.0
-    # the point at which the parabola at the peak falls through 0
+    # zero of the parabola that approximates the function at its peak
     guess = peak + math.sqrt(-height / (3.0 * c[3] * peak + c[2]))
     return first_crossing(c, peak, high, guess)
 

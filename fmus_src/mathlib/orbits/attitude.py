@@ -123,7 +123,7 @@ def linear_model(inertia: Matrix, inverse_inertia: Matrix, w0: float) -> Matrix:
     a[ROLL, YAW] = -w0
     a[YAW, ROLL] = w0
     a[ANGLES, RATES] = identity(3)
-    # j moves by (pitch, 0, -roll), and J^-1 (j x (J j)) is minus the above
+    # j changes by (pitch, 0, -roll), and J^-1 (j x (J j)) has the opposite sign of the matrix above
     a[RATES, ROLL] = 3.0 * w0 * w0 * by_radial[:, 2]
     a[RATES, PITCH] = -3.0 * w0 * w0 * by_radial[:, 0]
     a[RATES, RATES] = gyric_matrix(inertia, inverse_inertia, vector(0.0, 0.0, -w0))

@@ -12,7 +12,7 @@ from ..vectors import Vector3, dot, norm, vector
 
 CENTURY = 36525.0 * 86400.0  # s
 ASTRONOMICAL_UNIT = 149597870700.0  # m
-SUN_PARAMETER = 1.32712440018e20  # m3/s2, gravitational, as the next two
+SUN_PARAMETER = 1.32712440018e20  # m3/s2, gravitational parameter, as the next two
 MOON_PARAMETER = 4.902800066e12
 EARTH_PARAMETER = 3.986004415e14
 SUN_RADIUS = 6.957e8  # m

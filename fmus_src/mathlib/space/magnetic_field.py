@@ -9,7 +9,7 @@ from ...kernel.matrices import Matrix, zeros
 from ..vectors import Vector3
 from .harmonics import SIZE, gradient, schmidt_normalisation, set_pair
 
-RADIUS = 6371200.0  # m, of the coefficients
+RADIUS = 6371200.0  # m, reference radius of the coefficients
 DEGREE = 13
 VARIATION_DEGREE = 8
 DAY = 86400.0  # s

@@ -20,15 +20,15 @@ MULTIPLIER = ROWS
 SLACK_STEP = 2 * ROWS
 MULTIPLIER_STEP = 3 * ROWS
 LAMBDA = 4 * ROWS
-CENTRE = 5 * ROWS  # w
-AXIS = 6 * ROWS  # a
-FACTOR = 7 * ROWS  # b, in the first row of a cone
-RESIDUAL = 8 * ROWS  # of the slacks
-SHIFT = 9 * ROWS  # of the multiplier's step, and terms of the gradient
+CENTRE = 5 * ROWS  # the vector w of the scaling
+AXIS = 6 * ROWS  # the vector a of the scaling
+FACTOR = 7 * ROWS  # the factor b of the scaling, in the first row of a cone
+RESIDUAL = 8 * ROWS  # residual of the slacks
+SHIFT = 9 * ROWS  # shift of the multiplier's step, and terms of the gradient
 CORRECTION = 10 * ROWS
 SCALED_SLACK = 11 * ROWS
 SCALED_MULTIPLIER = 12 * ROWS
-FIELDS = 13 * ROWS + 4  # with the rows of the largest cone after the last, to prove indices valid
+FIELDS = 13 * ROWS + 4  # plus the rows of the largest cone, so that indices beyond the last row are provably valid
 
 
 def lorentz(c: list, at: int, size: int) -> float:

@@ -33,7 +33,7 @@ LOG_MASS = 297
 PLAN = 322
 
 LOWEST_LOG_MASS = -5.0  # least logarithm of mass in an expansion
-SEED_BURNT = 0.75  # of the mass, and of the propellant at the largest thrust
+SEED_BURNT = 0.75  # largest propellant of a first plan, as a fraction of the mass and of the propellant at full thrust
 
 
 class DescentTask(Record):

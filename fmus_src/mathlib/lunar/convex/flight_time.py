@@ -8,13 +8,13 @@ are expanded about the last solved plan.
 from ....kernel.records import Field, Record, replace
 from .expansion import DescentTask, PlanSummary, improve_plan, seed_plan
 
-FIRST_HIGH = 1.2  # of the first time
+FIRST_HIGH = 1.2  # upper time of a first search, as a multiple of the first time
 GROWTH = 1.3
 GROWTHS = 5
 BISECTIONS = 9
-SETTLINGS = 2  # solutions of the upper time, before ...
-TIME_SLACK = 1.02  # ... plans use this multiple of it, for 0.1 % more propellant
-REPLAN_LOW = 0.8  # of the remaining time, for a new plan
+SETTLINGS = 2  # solutions for the upper time before the search
+TIME_SLACK = 1.02  # plans use this multiple of the best time, which costs 0.1 % more propellant
+REPLAN_LOW = 0.8  # lower time of a new plan, as a fraction of the remaining time
 REPLAN_HIGH = 1.5
 REPLAN_BISECTIONS = 8
 POSITION_TOLERANCE = 1.0  # m

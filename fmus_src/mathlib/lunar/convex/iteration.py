@@ -48,10 +48,10 @@ from .problem import (
 from .recursion import GAINS, dual_residual, factorise
 
 ITERATION_LIMIT = 30
-TOLERANCE = 1e-6  # of gap and residuals, scaled
-LOOSE_TOLERANCE = 1e-4  # where rounding ends the iterations
-NEARLY = 0.99  # of the largest step
-FIRST_BOUND_SLACK = 1e-2  # at the start
+TOLERANCE = 1e-6  # tolerance of the scaled gap and residuals
+LOOSE_TOLERANCE = 1e-4  # tolerance accepted if rounding ends the iterations
+NEARLY = 0.99  # fraction of the largest step
+FIRST_BOUND_SLACK = 1e-2  # least slack of the bounds at the start
 FIRST_CONE_SLACK = 1e-1
 
 

@@ -37,7 +37,7 @@ MISSES = 271
 POINT = 273
 COSTATES = 175
 
-# Rows of an interval's slacks, and of the two ends'.
+# Rows of the slacks of an interval and of the two ends.
 STAGE = 10
 UPPER = 4
 LOWER = 5
@@ -46,8 +46,8 @@ GLIDE = 7
 END_POSITION = 240
 END_VELOCITY = 244
 ROWS = 248
-KINDS = 5  # of cones in an interval
-LARGER = 5  # than the rows of any cone
+KINDS = 5  # kinds of cones in an interval
+LARGER = 5  # a number larger than the rows of any cone
 CONES = 122
 
 # Expansion of a problem: gravity at the nodes, log mass and thrust limits of the intervals.
@@ -56,7 +56,7 @@ LOWER_LIMIT = 99
 UPPER_LIMIT = 123
 EXPANSION = 147
 
-WEIGHT = 30.0  # of the misses
+WEIGHT = 30.0  # weight of the misses
 
 
 class DescentProblem(Record):

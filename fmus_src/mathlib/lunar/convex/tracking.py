@@ -4,11 +4,13 @@ from ...vectors import Vector3, clip, limit_length, norm, vector
 from .expansion import GRAVITY, POSITION, THRUST, VELOCITY, vector_of
 from .problem import INTERVALS
 
-FREQUENCY = 0.15  # rad/s, of the error's oscillator ...
-DAMPING = 0.9  # ... and its damping ratio
-CORRECTION = 0.12  # of the largest thrust
-WEAK = 0.3  # of the largest thrust: if a plan's thrust is less, as in coasts, ...
-COAST_CORRECTION = 0.7  # ... corrections are limited to this fraction of it, so the axis is not reversed
+FREQUENCY = 0.15  # rad/s, natural frequency of the errors
+DAMPING = 0.9  # damping ratio of the errors
+CORRECTION = 0.12  # largest correction, as a fraction of the largest thrust
+WEAK = 0.3  # fraction of the largest thrust below which the thrust of a plan is weak, as in coasts
+COAST_CORRECTION = (
+    0.7  # largest correction of a weak thrust, as a fraction of it, so that its direction is not reversed
+)
 
 
 def interval_at(step: float, elapsed: float) -> int:
