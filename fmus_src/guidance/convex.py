@@ -27,8 +27,7 @@ LATE = 1.03  # multiple of the remaining time; a longer plan may use more of the
 
 
 class ConvexGuidance(ZemZevGuidance):
-    """Least propellant within thrust, glide slope and tilt limits by convex optimisation, planned on events and
-    tracked.
+    """Least propellant within limits of thrust, glide slope and tilt, by convex plans that are tracked.
 
     A plan has 24 intervals of constant thrust acceleration and 1.02 times the best time of flight. A plan is computed
     at the start and when the vehicle deviates from the last one by 30 m or, if this is less, by 1 m for each second to

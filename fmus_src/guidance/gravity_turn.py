@@ -10,8 +10,7 @@ from .informed_guidance import LIMIT_THRUST, InformedGuidance
 
 
 class GravityTurnGuidance(InformedGuidance):
-    """Gravity turn: thrust opposite to the velocity, in constant ratio to gravity, ending at rest at the target's
-    height.
+    """Gravity turn: thrust opposite to the velocity, in constant ratio to gravity, to rest at the target's height.
 
     The law controls neither horizontal position nor velocity: the horizontal part of target_position, target_velocity,
     minimum_thrust, thrust_margin and largest_tilt have no effect, and frozen_time_to_go is not supported. With

@@ -9,8 +9,7 @@ from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigationFilterpy(FilteredNavigation):
-    """Inertial navigation with the Kalman filter of filterpy, a second implementation of kalman_navigation, Python
-    only.
+    """Inertial navigation with filterpy's Kalman filter, a second implementation of kalman_navigation in Python only.
 
     The filter's state is the correction of the estimate and is 0 between updates; the matrices are full.
     """

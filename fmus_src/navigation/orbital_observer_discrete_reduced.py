@@ -6,8 +6,7 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverDiscreteReduced(AttitudeObserver):
-    """Discrete reduced-order observer: yaw propagated by the motion over a sample period, corrected by the roll
-    residual.
+    """Discrete reduced-order observer: yaw propagated over a sample period and corrected by the roll residual.
 
     From the last estimate of yaw and the measured values of the other states, the motion F gives yaw ψ_F and roll γ_F:
 
