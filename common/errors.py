@@ -59,7 +59,7 @@ class InputError(ValueError):
         return " ".join(f"{ended}; {_shorten(self.remedy)}".split())
 
 
-LONGEST = 1000  # characters of each part of a line, whose names and values may come from a file
+LONGEST = 1000  # characters of each text of a line, whose names and values may come from a file
 
 
 def _shorten(text: str) -> str:
