@@ -1,4 +1,4 @@
-"""Builder of the documentation site in build/site: the pages under docs/ and those derived from sources."""
+"""Builder of the documentation site in build/site, from the pages under docs/ and pages derived from sources."""
 
 from docs.reference.build import main
 

@@ -34,11 +34,11 @@ PATIENCE = 600.0  # s, for npm
 
 
 class WebError(Exception):
-    """Packages cannot be installed, or a source cannot be bundled."""
+    """Error of packages that cannot be installed, or of a source that cannot be bundled."""
 
 
 class UnavailableError(WebError):
-    """npm or its registry is out of reach."""
+    """Error of npm or its registry being out of reach."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(
@@ -65,7 +65,7 @@ def main() -> int:
 
 
 def install(*, tools: bool) -> None:
-    """Install the packages of the lock in `BUILT` without running their scripts; ``tools`` adds those for tests."""
+    """Install the locked packages in `BUILT` without running their scripts; ``tools`` adds packages for tests."""
     noted = BUILT / "installed.json"
     locked = digest(SOURCES / name for name in LOCKED)
     installed = json.loads(noted.read_text()) if PACKAGES.is_dir() and noted.is_file() else {}
@@ -147,7 +147,7 @@ def run_npm(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def digest(paths: Iterable[Path]) -> str:
-    """Return the SHA-256, in hexadecimal digits, of the list of these files and their digests."""
+    """Return the SHA-256, in hexadecimal digits, of the list of the files' names and digests."""
     return hashlib.sha256("".join(f"{sha256(path)}  {path.name}\n" for path in paths).encode()).hexdigest()
 
 

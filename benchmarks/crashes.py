@@ -2,8 +2,8 @@
 
     python -m benchmarks.crashes
 
-An FMU in C whose trial takes half a millisecond runs FEW and MANY trials; the difference is the cost of a trial without
-the start. It also runs FEW trials of which a tenth end their process.
+An FMU in C whose trial takes half a millisecond runs FEW and MANY trials; the difference of their times is the cost of
+a trial without start-up. It also runs FEW trials in which one of ten trials ends its process.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
-    """Return the time (s) of a trial, and of a batch without its trials."""
+    """Return the time (s) of a trial, and of the start-up of a batch."""
     few, many = (batch(fmu, workers, trials, in_process=in_process) for trials in (FEW, MANY))
     trial = (many - few) / (MANY - FEW)
     return trial, few - FEW * trial

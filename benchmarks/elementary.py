@@ -1,4 +1,4 @@
-"""Time per call of each elementary function, in the C library and in Python: `python -m benchmarks.elementary`."""
+"""Time per call of each elementary function, in C and in Python: `python -m benchmarks.elementary`."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def library() -> ctypes.CDLL:
 
 
 def shortest(call: Callable[[], object]) -> float:
-    """Return the shortest time (s) among several calls."""
+    """Return the shortest time (s) of several calls."""
     times = []
     for _ in range(REPEATS):
         before = time.perf_counter()

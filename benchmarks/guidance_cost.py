@@ -1,9 +1,9 @@
-"""Instructions and time per plan and per cycle of each descent law: `make guidance-cost`, some minutes.
+"""Instructions and time per plan and per cycle of each descent law: `make guidance-cost` (some minutes).
 
 Each law guides `lunar_landing` for ten seconds; the C source of its FMU, compiled by gcc -O2, is then run with the
 recorded inputs. callgrind (valgrind) counts the instructions of the initialisation and of every step. Times are the
-shortest of several runs, of the C code and of the Python FMU. The median step is a cycle; the most expensive step is
-the plan: the first one, or a later choice of time.
+shortest of several runs, of the C code and of the Python FMU. The median step is reported as the cycle, and the most
+expensive step (the first step, or a later choice of time) as the plan.
 """
 
 from __future__ import annotations
@@ -34,9 +34,7 @@ TOTAL = re.compile(r"^totals: (\d+)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Recording:
-    """Inputs of a guidance in a simulation: step (s), ``parameters`` by type, ``inputs`` by name with a row per
-    step.
-    """
+    """Recorded inputs of a guidance: step (s), ``parameters`` by type, and ``inputs`` by name, a row per step."""
 
     step: float
     parameters: Mapping[str, Mapping[str, float]]

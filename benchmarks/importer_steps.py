@@ -1,7 +1,7 @@
-"""Count of the blocks' FMUs that an importer can step by a step size: `python -m benchmarks.importer_steps`.
+"""Number of block FMUs that an importer can simulate, by step size: `python -m benchmarks.importer_steps`.
 
 Needs build_fmus.py. FMPy simulates each FMU from its declared start values, 20 steps of 0.001 to 60 s. An FMU passes if
-every step returns OK and all Real outputs are finite; for others the step and the FMU's message are printed.
+every step returns OK and all Real outputs are finite; for an FMU that fails the step size and its message are printed.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FORMS = {"native": "FMI 2.0, native", "python": "FMI 2.0, Python", "fmi3": "FMI 
 
 
 def fmu_of(block: type[Block], form: str) -> Path:
-    """Return the built FMU of FMI 2.0, or that of FMI 3.0 for this machine."""
+    """Return the path of the built FMU of FMI 2.0, or of FMI 3.0 for this machine."""
     if form != "fmi3":
         return shipped_fmu(block.fmu_name, form)
     platform = local_platform(3)
@@ -40,7 +40,7 @@ def fmu_of(block: type[Block], form: str) -> Path:
 
 
 def blocks_of(form: str) -> list[type[Block]]:
-    """Return the blocks available in this form."""
+    """Return the blocks whose FMUs are available in this form."""
     return [block for block in catalogue().values() if form == "python" or not block.python_only]
 
 

@@ -1,8 +1,8 @@
-"""Time and memory of computing a quantile, over the number of trials in a campaign's folder.
+"""Time and memory for a quantile, as a function of the number of trials in a campaign's folder.
 
     python -m benchmarks.large_results [TRIALS ...]
 
-Each measurement has a separate process, which opens the folder and computes the 99.9 % quantile of a metric.
+Each measurement runs in a separate process, which opens the folder and computes the 99.9 % quantile of a metric.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""Time and memory over the size of a system: rings with ten connections into each component.
+"""Time and memory as functions of the size of a system: rings with ten connections into each component.
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
-Prints four tables: time of a step of rings of ten Perilune FMUs, interpreted and fused; the same FMUs, each size in a
-process that reads, checks and orders the system, instantiates its FMUs and simulates one step; one foreign FMU, with
-the whole command `perilune run` and the cost of a component beyond the smallest ring; a foreign FMU of 10^5 variables,
-with the whole commands `run` and `validate`.
+Prints four tables: the time of a step of rings of ten different Perilune FMUs, interpreted and fused; the cost of
+reading, checking, ordering and instantiating such a ring and simulating one step, in a process for each size; the time
+of the command `perilune run` for rings of one foreign FMU, and the cost of each component beyond the smallest ring; and
+the times of the commands `run` and `validate` for a foreign FMU with 10^5 variables.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
 
 
 def _print_steps(folder: Path) -> None:
-    """Print the time of a step (us), and that of compiling it (s)."""
+    """Print the time of a step (us), and the time to compile it (s)."""
     print("| components | native, us a step | fused, us a step | compiled in, s |")
     print("|---|---|---|---|")
     for count in STEPPED_SIZES:

@@ -1,9 +1,9 @@
-"""Time per step of systems in their several forms: `python -m benchmarks.one_fmu [SYSTEM ...]`, after build_fmus.py.
+"""Time per step of systems in several forms: `python -m benchmarks.one_fmu [SYSTEM ...]`, after build_fmus.py.
 
 One loop simulates all forms in this process: the system from its FMUs (native), with steps compiled as one function
-(fused), as the one FMU of `perilune export --as-fmu`, and as the container FMU that the FMU Manipulation Toolbox builds
-from its .ssp. They take turns, and the shortest simulation counts. The toolbox ignores parameter sets, so its systems
-have other parameters.
+(fused), as the FMU of `perilune export --as-fmu`, and as the container FMU that the FMU Manipulation Toolbox builds
+from the .ssp. The forms take turns, and the shortest simulation counts. The toolbox ignores parameter sets, so its
+systems have different parameters.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Sizes and times of report pages: a run of landing_mission, and a batch of 3 x 10 000 trials.
+"""Sizes and loading times of report pages: a run of landing_mission, and a batch of 3 x 10 000 trials.
 
     python -m benchmarks.pages [--trials N] [--swiftshader]
 
 Prints the table of docs/reports.md: medians over newly opened pages in headless Chromium without a graphics processor,
-where SwiftShader draws WebGL and the processor draws and composes the page; with ``--swiftshader`` SwiftShader composes
-it, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
+where SwiftShader draws WebGL and the processor draws and composes the page; with ``--swiftshader`` SwiftShader also
+composes it. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
 """
 
 from __future__ import annotations

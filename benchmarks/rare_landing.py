@@ -1,7 +1,7 @@
 """Rare failures of a noisy landing compared with Monte Carlo: `python benchmarks/rare_landing.py [RESULTS]`.
 
-RESULTS is the folder of a batch as described in `tests/support/landing_counts.py`; by default the counts stated there
-are the reference. A study has 4500 samples per level and takes some minutes.
+RESULTS is the folder of a batch as described in `tests/support/landing_counts.py`; by default the reference is the
+counts in that file. A study has 4500 samples per level and takes some minutes.
 """
 
 import sys
@@ -16,7 +16,7 @@ SAMPLES = 4500
 
 
 def counts() -> tuple[int, dict[float, int]]:
-    """Return the number of trials, and the number of those that exceed each limit."""
+    """Return the number of trials, and the number of trials that exceed each limit."""
     if len(sys.argv) < 2:
         return TRIALS, MISSES
     results = perilune.open_results(sys.argv[1])

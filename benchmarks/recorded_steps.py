@@ -1,4 +1,4 @@
-"""Steps of an FMU of FMI 2 with recorded inputs: `python -m benchmarks.recorded_steps FMU RECORDING`.
+"""Times of the steps of an FMU of FMI 2.0 with recorded inputs: `python -m benchmarks.recorded_steps FMU RECORDING`.
 
 Prints the times (us) of the initialisation and of every step.
 """

@@ -3,7 +3,7 @@
     python -m benchmarks.show [TRIALS]
 
 Prints the times from the start of the command to the first figure and to all figures, the time from a brush to the new
-picture, and the server's memory; counts are compared with pyarrow's. Needs Chromium and its driver.
+picture, and the server's memory. Counts on the page are compared with counts by pyarrow. Needs Chromium and its driver.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def _selected(driver: Any) -> list[int]:
 
 
 def _by_pyarrow(folder: Path, driver: Any) -> list[int]:
-    """Return the same numbers for the ranges of the page's last request, computed by pyarrow."""
+    """Return the numbers of successes and failures for the ranges of the page's last request, by pyarrow."""
     entries = "performance.getEntriesByType('resource').map(each => each.name)"
     script = f"return {entries}.filter(each => each.includes('/counts'))"
     last = driver.execute_script(script)[-1]

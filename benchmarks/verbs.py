@@ -1,9 +1,9 @@
-"""Processor time of the verbs, from the start of Python to its end.
+"""Processor time of each verb, from the start to the end of the Python process.
 
     python -m benchmarks.verbs [SYSTEM] [--rounds N]
 
 Prints user and system time (s), including children: the median over rounds in which the commands take turns, after a
-round that fills caches and bytecode. The machine is shared with other programs: compare only numbers of one run.
+round that fills caches and bytecode. Compare only numbers of one run, since other programs may load the machine.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
     python -m benchmarks.basilisk PYTHON
 
 PYTHON is the absolute path of the interpreter of the cross-checks' environment, in which Basilisk is installed as well
-(`make bench-basilisk`). Each contestant runs a small and a large number of trials; the difference is the cost of trials
-without the start. The final states of the first trials must agree.
+(`make bench-basilisk`). Each contestant runs a small and a large number of trials; the difference of their times is the
+cost of trials without start-up. The final states of the first trials must agree.
 """
 
 import json
@@ -40,7 +40,7 @@ MOON_RADIUS = 1.7374e6  # m
 def run_perilune(folder: Path, plant: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
     """Simulate a batch with Perilune.
 
-    Returns its time (s), and the final position and velocity of each trial in the landing-site frame.
+    Returns the time (s), and the final position (m) and velocity (m/s) of each trial in the landing-site frame.
     """
     use, parameters = PLANTS[plant]
     start = time.perf_counter()
@@ -73,7 +73,7 @@ def run_basilisk(
 
 @dataclass(frozen=True)
 class Contestant:
-    """A contestant: Perilune with a ``plant``, or Basilisk with ``options``; numbers of trials of a measurement."""
+    """Contestant: Perilune with a ``plant``, or Basilisk with ``options``, and its numbers of trials."""
 
     name: str
     trials: tuple[int, int]

@@ -42,7 +42,7 @@ def load(name: str, **parameters: object) -> SteppedFmu:
 
 
 class Landing(Flight):
-    """Hub, tank and engine over the Moon; guidance is updated after them and commands the next step."""
+    """Simulation of hub, tank and engine over the Moon; guidance is updated after them and commands the next step."""
 
     def __init__(self) -> None:
         super().__init__(STEP)
@@ -64,7 +64,7 @@ class Landing(Flight):
         return guidance
 
     def mass(self) -> float:
-        """Return the mass (kg) from the integrated state, because the tank's message is one step late."""
+        """Return the mass (kg) from the integrated state, since the tank's message is one step late."""
         propellant = self.craft.dynManager.getStateObject(self.tank.getNameOfMassState())
         return DRY_MASS + propellant.getState()[0][0]
 

@@ -1,10 +1,10 @@
-"""The landing in Basilisk's Monte Carlo controller: initial conditions from files, states retained.
+"""Landing in Basilisk's Monte Carlo controller, with initial conditions from files and retained states.
 
     python -m benchmarks.basilisk.monte_carlo FOLDER TRIALS WORKERS [--no-pause] [--unguided]
 
 FOLDER/draws contains a JSON file per trial. Prints the time of the controller (s) and the final state of each trial.
 The controller pauses for a second in every trial that retains data, which --no-pause removes. With --unguided the
-lander falls for the same number of steps without a module in Python. Runs in Basilisk's environment.
+lander falls for the same number of steps, without any Python module. Runs in Basilisk's environment.
 """
 
 import json
@@ -52,7 +52,7 @@ def execute_unguided(simulation: object) -> None:
 
 
 def run(folder: str, trials: int, workers: int, *, guided: bool) -> tuple[float, list[list[float]]]:
-    """Run the controller; return its time (s), and final positions (from the Moon's centre) and velocities."""
+    """Run the controller; return its time (s), and final positions (m, from the Moon's centre) and velocities (m/s)."""
     controller = Controller()
     controller.setSimulationFunction(create if guided else create_unguided)
     controller.setExecutionFunction(execute if guided else execute_unguided)

@@ -1,1 +1,1 @@
-"""Time per communication step of Perilune's loop and of other importers, on the same FMUs in one run."""
+"""Time per communication step of Perilune's loop and of other importers, with the same FMUs, in one run."""

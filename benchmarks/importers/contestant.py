@@ -1,4 +1,4 @@
-"""System that all contestants simulate, packed as one .ssp, and their common interface."""
+"""System that all contestants simulate, packed as one .ssp, and the common interface of the contestants."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from perilune.common.errors import InputError
 
 @dataclass(frozen=True)
 class ExchangeSystem:
-    """A system whose FMUs exchange Reals without conversion, directly between components."""
+    """System whose FMUs exchange Reals without conversion, directly between components."""
 
     ssp: Path
 
@@ -45,7 +45,7 @@ class ExchangeSystem:
 
     @cached_property
     def names(self) -> list[str]:
-        """Outputs that another FMU reads: the values that a simulation returns."""
+        """Outputs that another FMU reads, whose values a simulation returns."""
         return list(dict.fromkeys(link.source.name for link in self.links))
 
     def settings(self) -> dict[tuple[str, str], ParameterValue]:
@@ -70,17 +70,17 @@ Fly = Callable[[int], Values]
 
 
 class Unavailable(Exception):  # noqa: N818 - not an error: the table says why
-    """A contestant is not available on this machine; the text states why, and a remedy."""
+    """Error of a contestant that is not available on this machine; the text states the reason and a remedy."""
 
 
 @dataclass(frozen=True)
 class Contestant:
-    """One way to simulate a system.
+    """Contestant: a way to simulate a system.
 
-    ``flavour`` is the build of its FMUs, ``what`` a description in one sentence. ``algorithm`` is Perilune's algorithm
-    whose values it must reproduce (None if it uses another order), ``exact`` if to the last bit. ``prepare`` creates
-    everything that outlasts a simulation and returns a function that simulates a number of steps from the start and
-    returns the final values of ``course.names``; it raises `Unavailable`.
+    ``flavour`` is the build of its FMUs, and ``what`` a description in one sentence. ``algorithm`` is Perilune's
+    algorithm whose values the contestant must reproduce, None if it uses a different order; ``exact`` requires equality
+    to the last bit. ``prepare`` creates everything that outlasts a simulation and returns a function that simulates a
+    number of steps from the start and returns the final values of ``course.names``; it raises `Unavailable`.
     """
 
     name: str
@@ -96,6 +96,6 @@ class Contestant:
 
 
 def both_flavours(*ways: Contestant) -> tuple[Contestant, ...]:
-    """Return these ways of simulation for Python FMUs, then for native ones."""
+    """Return contestants for Python FMUs, then for native FMUs."""
     native = [replace(way, name=f"{way.name.removesuffix('_python')}_native", flavour="native") for way in ways]
     return (*ways, *native)

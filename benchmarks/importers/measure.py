@@ -1,4 +1,4 @@
-"""Measurement: runs the contestants in turn, computes the cost of a step, and lists machine and versions."""
+"""Measurement of all contestants in turn: cost of a step, machine and versions."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ def run_benchmark(
 ) -> dict[str, Any]:
     """Measure the time per communication step of `SYSTEM` with every contestant.
 
-    Each contestant has a separate process. In every repeat each simulates one step and then ``steps`` steps; the
-    difference is the cost of steps without reading, instantiation and initialisation, which are stated separately.
-    Raises InputError.
+    Each contestant has a separate process. In every repeat each contestant simulates one step and then ``steps`` steps;
+    the difference of the times is the cost of steps without reading, instantiation and initialisation, which are stated
+    separately. Raises InputError.
     """
     if steps < 2 or repeats < 1:
         raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
@@ -77,7 +77,7 @@ def run_benchmark(
 
 
 def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
-    """Pack the system with the FMUs of each flavour that is built; add reasons for missing ones to ``unavailable``."""
+    """Pack the system with the FMUs of each built flavour; add reasons for missing flavours to ``unavailable``."""
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
@@ -95,7 +95,7 @@ def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str
 def _workers(
     archives: dict[str, Path], contestants: Sequence[Contestant], unavailable: dict[str, str]
 ) -> Iterator[dict[str, Worker]]:
-    """Yield a worker for every available contestant; add reasons for the others to ``unavailable``."""
+    """Yield a worker for every available contestant; add reasons for missing contestants to ``unavailable``."""
     with ExitStack() as stack:
         workers: dict[str, Worker] = {}
         for contestant in contestants:
@@ -116,7 +116,7 @@ def _fly_in_turn(
     repeats: int,
     unavailable: dict[str, str],
 ) -> dict[str, Times]:
-    """Return the times of every contestant; an uncounted first round warms up and compares final values."""
+    """Return the times of every contestant, after a round that is not counted and compares final values."""
     final: dict[str, Values] = {}
     times = {name: Times(steps) for name in workers}
     with progress_bar(total=(repeats + 1) * len(workers), unit="run") as progress:

@@ -1,4 +1,4 @@
-"""Server in a worker's process: answers each line of JSON by a line of JSON, until the input ends."""
+"""Server in a worker's process: answers each line of JSON with a line of JSON, until the input ends."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TURN = 0.1  # s
 
 
 def _turn(fly: Fly, steps: int) -> dict[str, Any]:
-    """Simulate for one turn; return the time of the fastest simulation (s) and the final values."""
+    """Simulate repeatedly for one turn; return the time of the fastest simulation (s) and the final values."""
     end = time.perf_counter() + TURN
     best = float("inf")
     for flight in itertools.count(1):

@@ -8,7 +8,7 @@ from .contestant import OURS
 
 
 def benchmark_text(document: dict[str, Any]) -> str:
-    """Return the result of `run_benchmark` as a table, slowest contestant first, native FMUs below Python ones."""
+    """Return the result of `run_benchmark` as a table, slowest contestant first, native FMUs below Python FMUs."""
     lines = [
         f"{document['system']}: {document['steps']} steps of {document['step']:g} s, {document['repeats']} repeats",
         "",

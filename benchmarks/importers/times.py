@@ -1,4 +1,4 @@
-"""Times of the contestants' simulations and of a step, guaranteed ratios, comparison of values."""
+"""Times of simulations and steps, guaranteed ratios, and comparison of values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PROMISED = (
 
 @dataclass
 class Times:
-    """Times (s) of simulations of one step and of ``steps`` steps, an entry per repeat."""
+    """Times (s) of simulations of one step and of ``steps`` steps, one entry per repeat."""
 
     steps: int
     short: list[float] = field(default_factory=list)
@@ -42,7 +42,7 @@ class Times:
         return max(0.0, min(self.short) - self.step())
 
     def ratio(self, other: Times) -> float:
-        """Return the ratio of the time per step to that of another contestant run alternately, median over repeats."""
+        """Return the ratio of the times per step of two contestants run alternately, the median over repeats."""
         return median(mine / its for mine, its in zip(self._each(), other._each(), strict=True))
 
     def _each(self) -> list[float]:
@@ -54,7 +54,7 @@ def compute_guaranteed_ratios(
 ) -> dict[str, float]:
     """Return the guaranteed ratios ``first/second`` of available contestants.
 
-    For workers these are ratios of trials per second, by flavour.
+    For numbers of workers these are ratios of trials per second, by flavour.
     """
     ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times
@@ -68,7 +68,7 @@ TOLERANCE = 1e-9
 
 
 def difference(values: Values, reference: Values) -> float:
-    """Return the largest difference, relative to the reference or, if larger, to 1."""
+    """Return the largest difference, relative to the larger of the reference's magnitude and 1."""
     return max(abs(values[name] - expected) / max(1.0, abs(expected)) for name, expected in reference.items())
 
 
@@ -80,7 +80,7 @@ def count_differences(values: Values, reference: Values) -> int:
 def disagreements(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
     """Return the contestants that disagree with Perilune's values for the same algorithm, with the reason.
 
-    An exact contestant must have been compared.
+    A contestant declared exact must have been compared.
     """
     by_name = {each.name: each for each in contestants}
     ours = {

@@ -1,4 +1,4 @@
-"""Separate process for each contestant, isolated from the others and the benchmark; trials per second.
+"""Separate process for each contestant, and measurement of trials per second.
 
 The process runs `serve.py`.
 """
@@ -23,11 +23,11 @@ from .contestant import Unavailable
 
 
 class WorkerError(Exception):
-    """A contestant's process failed; the text contains its last output."""
+    """Error of a contestant's process that failed; the text contains its last output."""
 
 
 class Worker:
-    """A contestant, by name, in a separate process; a context manager."""
+    """Contestant, by name, in a separate process. A context manager."""
 
     def __init__(self, contestant: str, ssp: Path) -> None:
         self.contestant = contestant
@@ -86,8 +86,8 @@ LEAST = 20  # least trials beyond the warm-up
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
     """Return the campaign's trials per second by number of workers; ``flight`` (s) is the rough time of a trial.
 
-    A short batch and a long one are timed ``rounds`` times each; the difference of the fastest ones excludes the start
-    of the workers. Raises `Unavailable` and `WorkerError`.
+    A short and a long batch are timed ``rounds`` times each; the difference of the fastest times excludes the start of
+    the workers. Raises `Unavailable` and `WorkerError`.
     """
     sizes = {workers: (4 * workers, 4 * workers + max(LEAST, round(workers * SECONDS / flight))) for workers in WORKERS}
     best: dict[tuple[int, int], float] = {}

@@ -1,7 +1,7 @@
 """Times of steps of `spacecraft` and of trials of earth_pointing: `python -m benchmarks.spacecraft`.
 
-Needs build_fmus.py. Trials are those of the campaign `dispersed` with one worker, in processor time: the time of a
-short batch is subtracted from that of a long one.
+Needs build_fmus.py. Trials are from the campaign `dispersed` with one worker. Their processor time is the difference
+between a long and a short batch.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Time of a step of the plant `spacecraft` by degree of the gravity field and by options.
 
-The native FMU alone, with satellite and orbit of earth_pointing, in steps of 0.25 s, each one Runge-Kutta step of four
-stages. The rows take turns in this process, and the shortest simulation counts.
+The native FMU is simulated alone, with satellite and orbit of earth_pointing, in communication steps of 0.25 s, each of
+which is one fourth-order Runge-Kutta step. The rows take turns in this process, and the shortest simulation counts.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ROWS: dict[str, tuple[str | None, dict[str, SetValue]]] = {
 
 
 def plant(parameter_set: str | None, parameters: dict[str, SetValue]) -> PreparedSystem:
-    """Return the prepared FMU with its parameters in the system, except the changed ones."""
+    """Return the prepared FMU with its parameters in the system and the changes of a row."""
     layers = SystemOptions(parameters=() if parameter_set is None else (parameter_set,))
     system = prepare_system(SYSTEM, layers)
     names = {name for component, name in system.settings.variables if component == COMPONENT}

@@ -1,1 +1,1 @@
-"""Reference of the documentation site in Markdown, derived from declarations, parsers and names."""
+"""Reference pages of the documentation site in Markdown, derived from declarations, parsers and names."""

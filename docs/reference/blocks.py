@@ -1,4 +1,4 @@
-"""Page of a block: model and sources from its docstring, all else from its declaration and its check."""
+"""Page of a block: model and literature from its docstring, all else from its declaration and its check."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def source_of(block: type[Block]) -> str:
 
 
 def fitting(block: type[Block]) -> list[str]:
-    """Return other blocks of the catalogue that have all inputs and outputs of a block."""
+    """Return the other blocks of the catalogue that have all inputs and outputs of a block."""
     wanted = _connectors(block)
     return [name for name, other in catalogue().items() if other is not block and wanted <= _connectors(other)]
 
@@ -102,7 +102,7 @@ def _feedthrough(block: type[Block]) -> str:
 
 
 def _model(described: dict[type[Block], Description]) -> str:
-    """Return the model of a block, followed by those of its bases under separate headings."""
+    """Return the model of a block, followed by the models of its bases under separate headings."""
     paragraphs = []
     for index, (each, description) in enumerate(described.items()):
         if index and description.model:

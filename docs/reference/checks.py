@@ -1,4 +1,4 @@
-"""Check of a block: its reference solution, the tolerance of each output, and the error of the shipped FMU."""
+"""Section on a block's check: reference solution, tolerance of each output, and error of the shipped FMU."""
 
 from __future__ import annotations
 

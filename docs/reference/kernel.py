@@ -1,4 +1,4 @@
-"""Page of the language of kernels: from the table that checks them, and from the functions of mathlib."""
+"""Page of the kernel language, from the table of its rules and the functions of mathlib."""
 
 from __future__ import annotations
 
@@ -124,5 +124,5 @@ def _arguments(function: FunctionType) -> str:
 
 
 def _first(function: FunctionType) -> str:
-    """Return the first sentence of a docstring, which may span lines."""
+    """Return the first sentence of a docstring, which may span several lines."""
     return inspect.cleandoc(function.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

@@ -12,7 +12,7 @@ from lxml import html
 def broken_links(site: Path) -> Iterator[tuple[str, str]]:
     """Yield (page, target) for each local reference of a site's pages to a missing file or anchor.
 
-    Resources from other hosts count as broken, because the site must be readable without a network.
+    Resources from other hosts count as broken, since the site must be readable without a network.
     """
     pages = {path: html.parse(str(path)).getroot() for path in sorted(site.rglob("*.html"))}
     anchors = {path: set(root.xpath("//@id | //a/@name")) for path, root in pages.items()}

@@ -1,4 +1,4 @@
-"""All derived pages, by path on the site, and their position in its navigation."""
+"""All derived pages, by path on the site, and their position in the navigation."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from perilune.fmus_src.export.judge.tunable import NEVER_READ, OTHER_PYTHON, PYT
 
 @dataclass(frozen=True)
 class Unread:
-    """A parameter that a block inherits from the class ``declared_in`` and never reads, and the blocks that read it."""
+    """Parameter that a block inherits from the class ``declared_in`` and never reads, and the blocks that read it."""
 
     name: str
     declared_in: type[Block]

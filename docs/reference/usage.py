@@ -1,4 +1,4 @@
-"""Use of an FMU in systems: as a component, or as a variant of one of their campaigns."""
+"""Use of an FMU in systems: as a component, or as a variant in a campaign."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from perilune.analysis.runtime.ssp.reading import read_description
 
 @dataclass
 class Usage:
-    """Use of an FMU: components by system, and the campaigns by system that have it as a variant."""
+    """Use of an FMU: components by system, and by system the campaigns of which it is a variant."""
 
     components: dict[str, list[str]] = field(default_factory=dict)
     campaigns: dict[str, list[str]] = field(default_factory=dict)
@@ -22,7 +22,7 @@ class Usage:
 
 @cache
 def usages() -> dict[str, Usage]:
-    """Return the use of every FMU by name, over all systems in ssp_systems."""
+    """Return the use of every FMU, by name, in all systems of ssp_systems."""
     uses: dict[str, Usage] = {}
     for system in system_names():
         archive = open_system(system)

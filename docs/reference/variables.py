@@ -19,7 +19,7 @@ def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
 def inputs(block: type[Block]) -> str:
     """Return the table of the block's inputs, without empty columns.
 
-    This and the other tables are empty texts without rows.
+    This and the other tables are empty texts if they have no rows.
     """
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)
@@ -38,7 +38,7 @@ def outputs(block: type[Block]) -> str:
 
 
 def parameters(block: type[Block]) -> str:
-    """Return the table of the block's parameters: default, bounds, and whether they are tunable."""
+    """Return the table of the block's parameters: default, bounds, tunability."""
     rows = [
         [
             f"`{sized_name(variable)}`",
@@ -124,7 +124,7 @@ def _frame(variable: Variable) -> str:
 
 
 def _in_flight(block: type[Block], variable: Variable) -> str:
-    """Return ``tunable``, or why the parameter is fixed; empty for an interface, whose blocks decide."""
+    """Return ``tunable``, or the reason why the parameter is fixed; empty for an interface, whose blocks differ."""
     if block.is_interface:
         return ""
     reason = find_fixed(block)[variable.name]
@@ -132,7 +132,7 @@ def _in_flight(block: type[Block], variable: Variable) -> str:
 
 
 def _words(variable: Variable) -> str:
-    """Return a variable's description, for an enumeration without its members, which have their own section."""
+    """Return a variable's description without the members of an enumeration, which have a separate section."""
     if variable.enumeration is None:
         return escaped(variable.description)
     return escaped(variable.description.partition(f": {min(variable.enumeration.meanings)} ")[0])

@@ -1,6 +1,6 @@
-"""Arguments that several Python verbs have are taken by all of them alike: slots to compare, paths, lists, folders.
+"""Arguments shared by several Python verbs are accepted in the same forms: slots to compare, paths, lists, folders.
 
-Truth: the list form, the signatures of the public functions.
+Truth: the same call in list form; the signatures of the public functions.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A flight in Python: its plots draw its signals, a notebook shows it, its page is that of the command.
+"""Result of a simulation in Python: plots draw its signals, notebooks show it, and its page equals the command's page.
 
 Truth: the signals themselves, read back from the drawn lines; lxml; the command's page.
 """

@@ -1,6 +1,6 @@
-"""perilune.inventory and `perilune list`: one kind alone, and what a text is in.
+"""perilune.inventory and `perilune list`: restriction to one kind, and search for a text.
 
-Truth: the files of the checkout, and the whole list, of which every other one is a part.
+Truth: the files of the checkout, and the complete list, which contains every restricted list.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The notebooks of the docs, run as a user runs them: in a fresh folder, by a kernel of its own.
+"""Notebooks of the docs, run as a user runs them: in an empty folder, each by a separate kernel.
 
-Truth: nbclient, which stops at an exception; every result that has a picture shows one.
+Truth: nbclient, which stops at an exception; the rule that every result with a picture shows it.
 """
 
 from __future__ import annotations

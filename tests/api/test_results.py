@@ -1,6 +1,6 @@
-"""Batches, comparisons, studies and laws in Python: tables, plots, what a notebook shows.
+"""Batches, comparisons, studies and laws in Python: tables, plots, and their display in notebooks.
 
-Truth: the results' own numbers, and for margins the closed form of the response they are read from.
+Truth: the numbers of the results, and for margins the closed form of the frequency response.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Values of the wrong kind in Python: one line that names the option and says what to write.
+"""Values of the wrong type in Python: one line that names the option and the expected form.
 
-Truth: the texts that a user would write on the command line, and the values that Python wants in their place.
+Truth: texts for the command line, and the corresponding values in Python.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""`perilune new block`: what it writes for each slot is built and flies where the command says.
+"""`perilune new block`: the template for each slot builds and runs in the system that the command names.
 
-Truth: the slot's task: target met, angles in their band, the declared error, whole steps of throttle; python-control;
-ruff.
+Truth: the task of each slot (target reached, angles within their band, declared error, throttle in whole steps);
+python-control; ruff.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""`perilune new system`: what it writes is built, flies, and has the margins of its equations.
+"""`perilune new system`: the template builds, runs, and has the margins that follow from its equations.
 
-Truth: python-control on the held rigid body and its sampled control; scipy's integrator with the law written here;
-the flavours against each other, bit by bit; ruff with the product's own settings.
+Truth: python-control on the rigid body behind a zero-order hold with sampled control; scipy's integrator with the law
+written here; equality of the flavours, bit by bit; ruff with the product's settings.
 """
 
 import json

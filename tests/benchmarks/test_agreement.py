@@ -1,4 +1,4 @@
-"""Detection of simulations on another machine, and of none else."""
+"""Detection of simulations on another machine, without false alarms. Truth: hand-written values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The benchmark as a whole: everyone flies, everyone agrees, every promised number is there. No times are asserted."""
+"""Complete benchmark: all importers run and agree, and every documented number is present; times are not asserted."""
 
 from __future__ import annotations
 

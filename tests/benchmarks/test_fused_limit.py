@@ -1,4 +1,4 @@
-"""A fused system is the same flight as ours, to the last bit, whatever the order of its components."""
+"""Fused benchmark systems give the simulation of Perilune's loop, to the last bit, for any order of components."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The recorded steps of a law are those of its flight, and callgrind's counts repeat."""
+"""Recorded steps of a law equal the steps of its simulation, and callgrind's counts are reproducible."""
 
 from __future__ import annotations
 

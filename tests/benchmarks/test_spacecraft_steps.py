@@ -1,4 +1,4 @@
-"""The rows of the benchmark of spacecraft simulate what they say.
+"""Rows of the spacecraft benchmark simulate the options that they name.
 
 Truth: the pressure of sunlight on plates; the height of the orbits.
 """

@@ -1,4 +1,4 @@
-"""Bundles: ports declared together, each member a separate variable, read, assigned and passed on by the bundle.
+"""Bundles: ports declared together, with separate variables that are read, assigned and passed on together.
 
 Truth: the same variables declared one by one.
 """

@@ -1,7 +1,8 @@
-"""Each block's check, flown in both flavours by FMPy as another tool would.
+"""Each block's check, simulated in both flavours by FMPy, as by another tool.
 
 Truth: checks/NAME.csv next to the block, computed by tests/support/checks without a line of `fmus_src`, within the
-tolerances of checks/NAME.toml. Recomputed, a check is the stored one within these, or to 1e-12 of a column's largest.
+tolerances of checks/NAME.toml. A recomputed check equals the stored check within these tolerances, or to 1e-12 of the
+largest value of a column.
 """
 
 import io

@@ -1,4 +1,4 @@
-"""The life cycle of a component (`perilune.fmus_src.runtime.BlockInstance`) against the FMI co-simulation rules.
+"""Life cycle of a component (`perilune.fmus_src.runtime.BlockInstance`), compared with the rules of FMI co-simulation.
 
 Truth: blocks whose behaviour is known by construction (accumulators, logs of their calls), and real blocks compared
 with themselves: a repeated initialisation must repeat every value to the last bit.

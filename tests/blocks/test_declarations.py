@@ -1,4 +1,4 @@
-"""Declarations of variables: names of elements, and inconsistent declarations refused where they stand.
+"""Declarations of variables: names of elements, and refusal of inconsistent declarations at their place.
 
 Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and the rules of `perilune.fmus_src.block`.
 """

@@ -1,6 +1,6 @@
-"""Blocks with state that is no FMI variable: a simulation in a library, created again for each flight.
+"""Blocks with state outside their FMI variables: a simulation in a library, created again for each run.
 
-Truth: the closed form of an oscillator; the process that simulates; a count of simulations that live.
+Truth: the closed form of an oscillator; the process that simulates; a count of existing simulations.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Quaternions of a tracker that is lost, all zeros: laws give no torque, filters no update, and both say so.
+"""Zero quaternions of a lost star tracker: control gives no torque, filters make no update, and both report it.
 
 Truth: the same block without the sample, or without the command.
 """

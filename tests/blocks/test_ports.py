@@ -1,6 +1,6 @@
-"""Ports: a variable declared from one has the port's unit, frame and bounds, and its own start and description.
+"""Ports: a variable declared from a port has the port's unit, frame and bounds, and its own start and description.
 
-Enumerations: plain ints in kernels, whose meanings describe the variable.
+Truth: the declarations. Enumerations are plain ints in kernels, and their meanings describe the variable.
 """
 
 from __future__ import annotations

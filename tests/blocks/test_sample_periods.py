@@ -1,6 +1,6 @@
-"""Blocks with a period of their own: which communication points they sample at.
+"""Blocks with a sample period: communication points at which they sample.
 
-Truth: a block that counts its steps and notes their times; exact fractions for sample instants.
+Truth: a block that counts its steps and records their times; exact fractions for sample instants.
 """
 
 from fractions import Fraction

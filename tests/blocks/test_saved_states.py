@@ -1,4 +1,4 @@
-"""The state of a component, saved and restored.
+"""Saved and restored states of a component.
 
 Truth: components compared with themselves: a restored state must repeat every value to the last bit.
 """

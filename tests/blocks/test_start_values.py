@@ -1,7 +1,7 @@
-"""FMUs refuse parameters outside their declared bounds, values that are not finite, and steps that would never end.
+"""FMUs reject parameters outside their declared bounds, values that are not finite, and steps of excessive duration.
 
-Truth: the declarations, the numbers that are set, and one wording for all faces: Python object, pythonfmu FMU, native
-FMUs of FMI 2.0 and 3.0. Systems as one FMU: export/system_fmu/test_start_values.py.
+Truth: the declarations, the numbers that are set, and equal messages of all forms: Python object, pythonfmu FMU, native
+FMUs of FMI 2.0 and 3.0. Systems as one FMU are tested in export/system_fmu/test_start_values.py.
 """
 
 from __future__ import annotations

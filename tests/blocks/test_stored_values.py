@@ -1,6 +1,6 @@
-"""Stored variables of a block: any sequence of the right size, stored where its value references are.
+"""Stored variables of a block: any sequence of the right size is stored at its value references.
 
-Truth: a block written here that stores what a library gives; the declarations of blocks.
+Truth: a block written here that stores sequences from a library; the declarations of blocks.
 """
 
 import numpy as np

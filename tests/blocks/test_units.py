@@ -1,6 +1,6 @@
-"""Units by their names: what each symbol means, how they are put together, what is refused.
+"""Units by name: meaning of each symbol, composition, and refusals.
 
-Truth: scipy.constants for factors; dimensional analysis for exponents (hypothesis: products and powers multiply).
+Truth: scipy.constants for factors; dimensional analysis for exponents (property-based: products and powers multiply).
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""All compared importers: Perilune's loop, FMPy, libcosim, fmucontainer, and the fused limit."""
+"""Compared importers: Perilune's loop, FMPy, libcosim, fmucontainer, and the fused limit."""
 
 from functools import partial
 

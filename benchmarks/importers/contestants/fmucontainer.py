@@ -57,7 +57,7 @@ def prepare(course: ExchangeSystem, sequential: bool = False) -> Fly:
 def _build(course: ExchangeSystem, sequential: bool):  # type: ignore[no-untyped-def]
     """Build the container; return its description and the unpacked folder.
 
-    Start values are passed explicitly, because the toolbox does not read parameter bindings.
+    Start values are passed explicitly, since the toolbox does not read parameter bindings.
     """
     try:
         from fmu_manipulation_toolbox.assembly import Assembly

@@ -122,7 +122,7 @@ def write_part(
 
 
 def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
-    """Reject a native FMU compiled from outdated sources, which would be a different program. Raises `Unavailable`."""
+    """Reject a native FMU compiled from outdated sources, which is a different program. Raises `Unavailable`."""
     if fmu.is_native and fmu.description.guid != native_guid(block_class):
         raise Unavailable(f"{component}: its FMU {fmu.name} is of other sources; run build_fmus.py")
 

@@ -26,8 +26,8 @@ def prepare(course: ExchangeSystem, blocks: Mapping[str, type[Block]] | None = N
     """Prepare the same blocks, parameters and connections in the same order, with inlining left to the compiler.
 
     The C source and floating-point flags are those of the native FMUs, so values are equal to the last bit. Like
-    Perilune's loop it checks for NaN and infinity, and records the first and the last point. ``blocks`` by FMU name are
-    by default those of the catalogue. Raises `Unavailable` for a component of another block.
+    Perilune's loop it checks for NaN and infinity, and records the first and the last point. ``blocks`` contains the
+    blocks by FMU name, by default the catalogue. Raises `Unavailable` for a component whose block is not among them.
     """
     library = ctypes.CDLL(str(compile_system(course, catalogue() if blocks is None else blocks)))
     function = library.fly

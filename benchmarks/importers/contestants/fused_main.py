@@ -40,7 +40,7 @@ const char *fly(double start, double step, int64_t steps, double *record)
 
 
 def write_main(course: ExchangeSystem, parts: Sequence[Part]) -> str:
-    """Return the unit; its function ``fly`` simulates and records `Course.names`."""
+    """Return the C unit, whose function ``fly`` simulates the system and records `Course.names`."""
     return _Writer(course, parts).text()
 
 
@@ -97,7 +97,7 @@ class _Writer:
         return lines + [line for component in schedule.sources_first for line in self._set(component)]
 
     def _set(self, component: str, known: Sequence[str] | None = None) -> list[str]:
-        """Return the statements that set a component's inputs; with ``known`` only those driven by these components."""
+        """Return the statements that set a component's inputs, with ``known`` only those from these components."""
         return [
             f"{self._member(link.target.name)} = {self._member(link.source.name)};"
             for link in self._links_to(component)

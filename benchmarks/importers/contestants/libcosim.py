@@ -19,10 +19,10 @@ ANNOTATION = """<ssc:Annotation type="com.opensimulationplatform"><osp:Algorithm
 
 
 def prepare(course: ExchangeSystem, threads: int = 0) -> Fly:
-    """Prepare an execution, read from the .ssp for every simulation; ``threads`` are additional ones.
+    """Prepare an execution, which is read from the .ssp for every simulation, with ``threads`` additional threads.
 
-    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. At the start
-    values are exchanged as often as there are FMUs, which settles them.
+    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, then all step, then all are read. At
+    the start values are exchanged as often as there are FMUs, after which they no longer change.
     """
     try:
         from libcosimpy import CosimEnums, CosimExecution, CosimLogging, CosimObserver

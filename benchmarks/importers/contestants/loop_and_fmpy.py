@@ -1,4 +1,4 @@
-"""Ways to simulate a system without further software: Perilune's loop and FMPy."""
+"""Contestants without further software: Perilune's loop and FMPy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..contestant import Contestant, ExchangeSystem, Fly, Unavailable, Values
 
 
 def prepare_loop(course: ExchangeSystem, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
-    """Prepare a `Simulation` that reuses its instances and, like the others, continues after ``finished``."""
+    """Prepare a `Simulation` that reuses its instances and, like other contestants, continues after ``finished``."""
     prepared = course.flight(1, algorithm)
     prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
     try:
@@ -39,7 +39,7 @@ def prepare_loop(course: ExchangeSystem, algorithm: str = "sequential", flavour:
 
 @dataclass
 class _Unit:
-    """An FMU with precomputed lists: value references, and positions in the common list of values."""
+    """FMU with precomputed value references and positions in the common list of values."""
 
     slave: FMU2Slave
     inputs: list[int]
@@ -56,7 +56,7 @@ class _Unit:
 
 
 def prepare_calls(course: ExchangeSystem) -> Fly:
-    """Prepare one setReal, doStep and getReal per FMU and step, in the order of Perilune's sequential algorithm."""
+    """Prepare one call each of setReal, doStep and getReal per FMU and step, in Perilune's sequential order."""
     prepared = course.prepared
     places: dict[str, int] = {}
     for component in prepared.network.fmus:
@@ -131,8 +131,8 @@ def _unit(course: ExchangeSystem, component: str, fmu: Fmu, places: dict[str, in
 def prepare_ssp(course: ExchangeSystem) -> Fly:
     """Prepare simulate_ssp, which unpacks and instantiates the FMUs for every simulation.
 
-    Parameters are passed explicitly, because it does not read the bindings of the SSD. It sets all inputs to 0 in the
-    first step, exchanges values after all have stepped, and records every connector.
+    Parameters are passed explicitly, since simulate_ssp does not read the bindings of the SSD. It sets all inputs to 0
+    in the first step, exchanges values after all FMUs have stepped, and records every connector.
     """
     parameters = ParameterSet(
         name="benchmark",

@@ -1,1 +1,1 @@
-"""Keys of files and of annotations, messages and numbers: each file of this folder is a page of the site."""
+"""Keys of files and annotations, messages and numbers: each TOML file of this folder is a page of the site."""

@@ -1,4 +1,4 @@
-"""Links from written pages to the pages of blocks, which exist only in the built site."""
+"""Links from written pages to block pages, which exist only in the built site."""
 
 from __future__ import annotations
 

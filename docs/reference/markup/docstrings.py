@@ -1,4 +1,4 @@
-"""Sections of a block's docstring: summary, model with its equations, assumptions, frames, literature."""
+"""Parser of the sections of a block's docstring: summary, model with equations, assumptions, frames, literature."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ OPENING = ("See", "Derivation")  # labels that remain in the sentence
 
 @dataclass(frozen=True)
 class Description:
-    """Markdown of a docstring: summary, paragraphs of the model, and paragraphs by label."""
+    """Docstring as Markdown: summary, paragraphs of the model, and paragraphs by label."""
 
     summary: str
     model: list[str]

@@ -1,8 +1,8 @@
 """Conversion of equations in docstrings, plain text on indented lines, to LaTeX.
 
-In ``J ω' = (J ω) × ω + u`` a prime is a time derivative and a space a product; ``_`` begins an index, ``^T`` is a
-transpose, and ``/`` divides its two neighbours. A name of several letters is a function or a variable of the block;
-three spaces separate equations on a line.
+In equations such as ``J ω' = (J ω) × ω + u`` a prime denotes a time derivative and a space a product; ``_`` begins an
+index, ``^T`` is a transpose, and ``/`` divides its two neighbours. A name of several letters is a function or a
+variable of the block; three spaces separate equations on a line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Conversion of a page's formulas from LaTeX between dollars, as on GitHub, to MathML, which needs no script."""
+"""Conversion of a page's formulas, LaTeX between dollars, to MathML, which needs no script."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ INLINE = re.compile(r"(?<![\\$\w])\$([^\s$](?:[^$\n]*[^\s$])?)\$(?![\w$])")
 def typeset(page: str) -> str:
     """Return a Markdown page with formulas as MathML: ``$$...$$`` on separate lines, ``$...$`` in the text.
 
-    Formulas in the text are inside a span, because a line that begins with ``<math`` ends a Markdown paragraph.
+    Formulas in the text are inside a span, since a line that begins with ``<math`` ends a Markdown paragraph.
     """
     parts = CODE.split(page)
     return "".join(part if index % 2 else _with_mathml(part) for index, part in enumerate(parts))

@@ -1,7 +1,7 @@
-"""Gyro steerings: torque at the sample instants, in the mean, over the turn of the rendezvous, and in singular states.
+"""Gyro steerings: torque at sample instants, mean torque, the turn of the rendezvous, and singular states.
 
-Truth: the cluster's momentum as printed, its derivative by complex steps, differences of the momentum over a
-held interval, and the turn's polynomial differentiated by numpy. Tolerance 1e-12 N.m at the instants.
+Truth: the published momentum of the cluster, its derivative by complex steps, differences of the momentum over a hold
+interval, and the turn's polynomial differentiated by numpy. Tolerance 1e-12 N.m at the instants.
 """
 
 import math

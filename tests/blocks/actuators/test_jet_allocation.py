@@ -1,7 +1,7 @@
-"""Jet allocations: timing of the commands, frames, and what each block gives.
+"""Jet allocations: timing of commands, frames, and the force and torque of each block.
 
-Truth: the jets' matrix from the published axes and arms, scipy rotations, sums of commanded impulses, and the
-schedule of delayed commands counted by hand. The rules themselves are tested against linear programming in
+Truth: the jets' matrix from the published axes and arms, scipy's rotations, sums of commanded impulses, and the
+schedule of delayed commands, by hand. The allocation rules are tested against linear programming in
 tests/mathlib/actuators/test_jets.py. Tolerance 1e-12 N and N.m.
 """
 

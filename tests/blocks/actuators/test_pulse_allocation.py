@@ -1,6 +1,6 @@
-"""Pulses with a carried rest: properties that hold for any demands, and a worked sequence.
+"""Pulse allocation with a carried remainder: properties for any demands, and a worked sequence.
 
-Truth: what is demanded, summed; the worked sequence is another program's.
+Truth: the sum of the demands; a sequence computed by another program.
 """
 
 import math

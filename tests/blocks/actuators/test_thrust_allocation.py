@@ -1,10 +1,10 @@
 """Thrust allocation against closed forms of its throttle, lag and slew limit.
 
-Truth: mass times acceleration, the exact response of a first-order lag to a staircase (a sum of
-exponentials), scipy rotations for the slew-limited direction, a chi-square interval (99.9 %) for the
-random thrust error. Tolerance 1e-11 relative for thrust, 1e-12 for unit vectors. What the leads are for is
-shown by flying them: the impulse of a burn with a lag is that of one without to 1e-9, the direction of a plant
-with a response that which is demanded, to second order in its rate.
+Truth: mass times acceleration, the exact response of a first-order lag to a staircase (a sum of exponentials), scipy
+rotations for the slew-limited direction, a chi-square interval (99.9 %) for the random thrust error. Tolerance 1e-11
+relative for thrust, 1e-12 for unit vectors. The effect of the leads is tested by simulation: with a lag the impulse of
+a burn equals the impulse without a lag to 1e-9, and with a response time the direction equals the demanded direction to
+second order in its rate.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Wheel allocations: torques that give the command, smallest by either norm; null motion; limits and failures.
+"""Wheel allocations: torques of least norm (2 or infinity) that produce the command; null motion; limits; failures.
 
-Truth: numpy's pseudo-inverse; linear programmes of all four torques by scipy (HiGHS); the envelopes of a pyramid by
-hand (Markley, Reynolds, Liu and Lebsock 2010).
+Truth: numpy's pseudo-inverse; linear programmes of all four torques by scipy (HiGHS); the torque envelopes of a pyramid
+by hand (Markley, Reynolds, Liu and Lebsock 2010).
 """
 
 import numpy as np

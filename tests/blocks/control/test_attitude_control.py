@@ -1,4 +1,4 @@
-"""Attitude control: the torque of the paper's law, what it makes of a rigid body, and its margins.
+"""Attitude control: torque of the published law, closed loop with a rigid body, and margins.
 
 Truth: the paper's law in matrices, by numpy; a rigid body with an ideal gyro cluster by scipy's DOP853; scipy's
 bilinear discretisation; python-control's margins against the published design's 49 deg and 16.5 dB.

@@ -1,7 +1,8 @@
-"""B-dot in closed loop with a rotating body: it takes energy until the body turns with the field.
+"""B-dot law in closed loop with a rotating body: it removes energy until the body turns with the field.
 
-Truth: about one axis across a field that turns at W, with rates small to the sampling: w = W + (w0 - W) exp(-k f t/J),
-f the fraction of the time in which the dipole acts. About any axis: the equations of Euler, integrated here.
+Truth: about one axis perpendicular to a field that turns at W, with slow rates relative to the sampling, w = W + (w0 -
+W) exp(-k f t/J), with f the fraction of time in which the dipole acts; about any axis, Euler's equations integrated
+here.
 """
 
 import numpy as np

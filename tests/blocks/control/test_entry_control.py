@@ -1,7 +1,7 @@
-"""The regulators of the entry capsule.
+"""Control blocks of the entry capsule.
 
-Truth: the frozen closed loop's characteristic polynomial by numpy (1e-9), a matrix of another program, properties of
-relays, interpolation by hand.
+Truth: the characteristic polynomial of the frozen closed loop by numpy (1e-9), a matrix from another program,
+properties of relays, interpolation by hand.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Control of the torquers, sample by sample: laws, limit, times and statuses.
+"""Magnetic control, sample by sample: laws, dipole limit, timing and statuses.
 
-Truth: values computed outside this package, by numpy from the laws; momentum across the field, by projection; the times
-written out.
+Truth: values computed outside this package, by numpy from the laws; momentum perpendicular to the field, by projection;
+sample times written out.
 """
 
 import math

@@ -1,6 +1,7 @@
-"""The regulators of the orbital attitude.
+"""Control blocks of the orbital attitude.
 
-Truth: the placed matrices themselves (1e-12), gains of another program, the least turning in closed form, properties.
+Truth: the prescribed closed-loop matrices (1e-12), gains from another program, the least rotation in closed form,
+symmetry properties.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Quaternion feedback: turns about the eigenaxis, in closed loop with the satellite; limits and statuses.
+"""Quaternion feedback: rotations about the eigenaxis in closed loop with the satellite; limits and statuses.
 
 Truth: Wie, Weiss and Arapostathis 1989: with gains proportional to the inertia and the gyroscopic torque cancelled, a
 satellite at rest turns about the eigenaxis of its error e, and e'' = -k 2 sin(e/2) - c e', by scipy's DOP853.

@@ -1,7 +1,7 @@
-"""The whole loop of the rendezvous in plain Python, over a short approach: signs, sampling and connections.
+"""Complete control loop of the rendezvous in plain Python, over a short approach: signs, sampling, connections.
 
-Truth: the plan, which the true motion must follow within a few of the sensors' sigmas, and the momentum,
-which is conserved. The figures of the whole flight are the system's: docs/systems/robot_rendezvous.md.
+Truth: the plan, which the true motion must follow within a few of the sensors' sigmas, and conservation of momentum.
+The numbers of the complete flight are tested with the system (docs/systems/robot_rendezvous.md).
 """
 
 import numpy as np

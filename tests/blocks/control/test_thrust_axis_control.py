@@ -1,8 +1,8 @@
-"""Control of a thrust axis: the law, its linear response, and large turns along the braking curve.
+"""Control of a thrust axis: the law, its linear response, and large rotations along the braking curve.
 
 Truth: the law in numpy; python-control's discrete closed loop of a double integrator for small angles; the bang-bang
-turn in closed form for large ones, whose braking is a quarter of the limit; a command turning at a constant rate,
-followed without error.
+rotation in closed form for large angles, whose braking is a quarter of the limit; a command that rotates at a constant
+rate, which is followed without error.
 """
 
 import math

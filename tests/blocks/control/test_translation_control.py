@@ -1,8 +1,8 @@
-"""Translation control: its two laws, its ticks, and the margins of the loop that it closes.
+"""Translation control: its two laws, its sample times, and the margins of its loop.
 
-Truth: scipy's bilinear discretisation of the lead; the law of position and velocity by numpy; python-control's
-margins of the sampled double integrator with the jets' delay, against the published design's 44 deg and 12.6 dB at 8 s,
-45 deg and 13.1 dB at 4 s; the poles that natural frequency and damping stand for.
+Truth: scipy's bilinear discretisation of the lead; the law of position and velocity by numpy; python-control's margins
+of the sampled double integrator with the jets' delay, against the published design's 44 deg and 12.6 dB at 8 s, 45 deg
+and 13.1 dB at 4 s; the poles defined by natural frequency and damping ratio.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Gusts, changes of density and the health of jets, by their definitions."""
+"""Gusts, changes of density and jet health. Truth: their definitions, evaluated here."""
 
 import math
 

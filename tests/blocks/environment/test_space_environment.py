@@ -1,7 +1,7 @@
-"""The surroundings of a spacecraft: published numbers, closed forms, statuses, and the plant's own surroundings.
+"""Space environment: published numbers, closed forms, statuses, and agreement with the environment inside the plant.
 
-Truth: series and field of other programs at their epochs; the axes of the Earth and its Sun as `support.checks.space`
-has them; geometry. Light, half-shadow and shadow about the Earth are in its check.
+Truth: ephemerides and magnetic field from other programs at their epochs; the Earth's axes and the Sun by
+`support.checks.space`; geometry. Sunlight, penumbra and umbra about the Earth are in the block's check.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""The slot's input `active`: a guidance that waits, starts when it is activated, and may start again.
+"""Input `active` of the terminal guidances: a guidance waits, starts when activated, and can be restarted.
 
-Truth: the same guidance without waiting. Activated at t it gives to the bit what a fresh one started at t gives, over a
-whole flight; active all along it is the guidance that knows no such input; inactive it commands nothing.
+Truth: the same guidance without waiting. Activated at t it equals a new guidance started at t, to the bit, over a
+complete descent; always active it equals a guidance whose input is not set; inactive it commands nothing.
 """
 
 import numpy as np

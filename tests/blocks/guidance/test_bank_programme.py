@@ -1,6 +1,7 @@
-"""The bank programme: reversals, and the time-optimal reference against bang-coast-bang by integration.
+"""Bank programme: reversals, and the time-optimal reference compared with an integrated bang-coast-bang profile.
 
-Truth: the bound in closed form, 2 sqrt(way/c) or way/v + v/c, and the reference's own second derivative integrated.
+Truth: the least time in closed form, 2 sqrt(angle/c) or angle/v + v/c, and the integral of the reference's second
+derivative.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Commands of the terminal guidances with a frozen plan, as feedback laws of position and velocity.
+"""Commands of the terminal guidances with a frozen time to go, as feedback laws of position and velocity.
 
 Truth: with A and B linear in position and velocity the derivatives of every law follow by hand (below, in numpy);
-central differences of the blocks' commands are compared with them. A frozen plan never ends a flight.
+central differences of the blocks' commands are compared with them. A frozen time to go never ends a flight.
 """
 
 import numpy as np

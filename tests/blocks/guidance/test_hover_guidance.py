@@ -1,7 +1,7 @@
-"""The law of hover guidance, its estimate of thrust, and when its plans start.
+"""Hover guidance: control law, thrust estimate, and start of plans.
 
-Truth: the acceleration of a second-order loop, exactly, and its decay in closed form; the exponential of a low-pass;
-a first-order engine integrated by scipy.
+Truth: the exact acceleration of a second-order loop, and its decay in closed form; the exponential response of a
+low-pass filter; a first-order engine integrated by scipy.
 """
 
 import math

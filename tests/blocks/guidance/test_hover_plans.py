@@ -1,8 +1,8 @@
-"""Plans of hover guidance: kinds, statuses, the reference and its feed, and that a point mass arrives with them.
+"""Plans of hover guidance: kinds, statuses, reference and feedforward, and arrival of a point mass that follows them.
 
-Truth: a point mass flown by scipy under the block's commands alone; the paper's full equations by scipy, turned into
-space by numpy; closed forms of a slow transfer and of a body that sinks with a ramp of speed; numeric differences of
-the planned direction.
+Truth: a point mass integrated by scipy under the block's commands; the paper's full equations by scipy, rotated into
+space by numpy; closed forms of a slow transfer and of a descent with a speed ramp; numerical differences of the planned
+direction.
 """
 
 import math

@@ -1,9 +1,9 @@
-"""The law of Diveev, Pupkov and Sofronova (2013), in the plane and in space.
+"""Network operator law of Diveev, Pupkov and Sofronova (2013), in the plane and in space.
 
-Truth: the law that the published matrix encodes, written out in independent_descent.py with both values of
-the saturated exponential, and the published basic solution, at 1000 random points each (1e-9 relative); the force
-of the planar law turned into space by vector algebra (1e-9); the planar descent with the vertical turning,
-for a descent in space integrated here by Runge-Kutta (0.1 s and 0.1 m at the hand-over).
+Truth: the law that the published matrix encodes, written out in independent_descent.py with both values of the
+saturated exponential, and the published basic solution, at 1000 random points each (1e-9 relative); the force of the
+planar law rotated into space by vector algebra (1e-9); a planar descent with rotating vertical, compared with a descent
+in space integrated here by a Runge-Kutta method (0.1 s and 0.1 m at the hand-over).
 """
 
 import math

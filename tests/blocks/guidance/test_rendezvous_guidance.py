@@ -1,4 +1,4 @@
-"""Rendezvous guidance: boundary conditions, derivatives, and the clock of translation control.
+"""Rendezvous guidance: boundary conditions, derivatives, and sample times of translation control.
 
 Truth: the conditions of the problem, to 1e-9 at every phase boundary; the final point and range that follow from
 the published data; numeric differentiation of the outputs; the integral of the commanded means, which is the

@@ -1,6 +1,7 @@
-"""The plan of an approach whose turn takes the least time within three limits.
+"""Plan of an approach whose turn takes the least time within limits of rate, acceleration and jerk.
 
-Truth: the other plan, which differs in the turn alone; seven pieces of constant jerk by hand; scipy's rotations.
+Truth: the plan without these limits, which differs in the turn alone; seven segments of constant jerk by hand; scipy's
+rotations.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Commands of the three guidances of method A* over the published box.
+"""Commands of the three guidances of method A* over the published box of initial states.
 
-Truth: the linear thrust acceleration solved by numpy, whose lateral and vertical parts the method keeps; its
-times-to-go by `numpy.roots` and by the published closed formula. Tolerance 1e-9 relative.
+Truth: the linear thrust acceleration solved by numpy, with whose lateral and vertical components the method agrees;
+times to go by `numpy.roots` and by the published closed formula. Tolerance 1e-9 relative.
 """
 
 import itertools

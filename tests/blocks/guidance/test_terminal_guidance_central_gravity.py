@@ -1,9 +1,9 @@
-"""gravity_correction: the laws for constant gravity fly in a central field.
+"""gravity_correction: laws for constant gravity in a central field.
 
-Truth: gravity linear in time between here and the target, integrated as numpy polynomials, with which the commanded
-thrust must meet all six end conditions; a field so large that it is constant; and flights in the central field
-by a Runge-Kutta integration that has nothing in common with the components, from 1689 m/s nearly level
-at 18.148 km with the site ahead.
+Truth: gravity linear in time between vehicle and target, integrated as numpy polynomials, with which the commanded
+thrust must meet all six end conditions; a field of so large a radius that gravity is constant; and descents in the
+central field by a separately written Runge-Kutta integration, from 1689 m/s nearly horizontally at 18.148 km towards
+the site.
 """
 
 import math

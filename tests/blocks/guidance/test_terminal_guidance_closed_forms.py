@@ -1,9 +1,8 @@
-"""Commands of the terminal guidances against the published formulas, over the whole published box.
+"""Commands of the terminal guidances compared with the published formulas, over the published box of initial states.
 
-Truth: the printed test state, to half a unit of the last digit; the linear thrust acceleration
-a(t) = a0 + a1 t that meets all six boundary conditions, solved by numpy as a linear system, of which
-every command is the value (and, per method, the rate) at the start; times-to-go by `numpy.roots`.
-Tolerance 1e-9 relative.
+Truth: the published test state, to half a unit of the last digit; the linear thrust acceleration a(t) = a0 + a1 t that
+meets all six boundary conditions, solved by numpy as a linear system, of which every command is the value (and, per
+method, the rate) at the start; times-to-go by `numpy.roots`. Tolerance 1e-9 relative.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Start, held command and end of a flight of the terminal guidances.
+"""Terminal guidances: start, held command and end of a flight.
 
-Truth: the interface's contract: time is counted down while a command is held, a flight stops within a cycle of its time
-or burns its last command for the time that is left.
+Truth: the contract of the interface: the time to go is counted down while a command is held, and a flight stops within
+one cycle of its end or holds the last command for the remaining time.
 """
 
 import math

@@ -1,8 +1,8 @@
-"""The two guidances with a time-to-go for every start: hovering, slow, receding and fast ones, and how they end.
+"""Guidances with a time to go for every initial state: hovering, slow, receding and fast starts, and their ends.
 
-Truth: arrival, in flights with the plant; for starts at rest the least integral of the squared thrust
-acceleration, g^2 T + 12 h^2/T^3 at T = sqrt(6 h/g), in closed form; the smallest effort over all times by scipy.
-Tolerance 1e-3 m and 1e-3 m/s at the target unless a test says otherwise.
+Truth: arrival, in simulations with the plant; for starts at rest the least integral of the squared thrust acceleration,
+g^2 T + 12 h^2/T^3 at T = sqrt(6 h/g), in closed form; the smallest effort over all times by scipy. Tolerance 1e-3 m and
+1e-3 m/s at the target unless a test says otherwise.
 """
 
 import math

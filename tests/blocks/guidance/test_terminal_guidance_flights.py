@@ -1,6 +1,6 @@
-"""Whole flights of the terminal guidances over a flat Moon.
+"""Complete descents of the terminal guidances over a flat Moon.
 
-Truth: `support/flights/independent_lander.py`, 1e-8 m and 1e-9 m/s; bounds on what a stop within a cycle leaves.
+Truth: `support/flights/independent_lander.py`, 1e-8 m and 1e-9 m/s; bounds on the errors left by a stop within a cycle.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Commands of the terminal guidances turn, mirror, move and scale with frame, target and units.
+"""Invariance of the terminal guidances under rotation, reflection, translation, and scaling of units.
 
-Truth: the laws know no direction but the vertical (method A*: and x), no place but the target and no units.
+Truth: the laws depend on no direction but the vertical (method A*: also x), no position but the target, and no units.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Navigation with wandering errors against the Gauss-Markov process.
+"""Navigation with Gauss-Markov errors.
 
-Truth: the process's autocorrelation sigma^2 exp(-t/T) with the white share at lag 0; chi-square intervals of
-independent flights; exactness over steps of any length; the truth itself without sigmas.
+Truth: the autocorrelation sigma^2 exp(-t/T) with the white share at lag 0; chi-square intervals over independent runs;
+exactness for steps of any length; the true state if all sigmas are 0.
 """
 
 import math

@@ -1,8 +1,8 @@
-"""The slot's input `free_flight` and the filters' `gravity_gradient`.
+"""Input `free_flight` of the navigation interface and parameter `gravity_gradient` of the filters.
 
-Truth: a navigation whose inertial sensor measures exactly nothing and is known to have no errors, to the bit; the
-orbit in closed form (a circle); the linear differential equation of errors, solved by scipy; and, over 100 seeds of a
-coast of 3000 s, the chi-square distribution, which the covariance meets with the gradient only.
+Truth: a navigation whose inertial sensor measures zero and has no assumed errors, to the bit; a circular orbit in
+closed form; the linear differential equation of the errors, solved by scipy; and, over 100 seeds of a coast of 3000 s,
+the chi-square distribution, with which the covariance agrees only with the gradient.
 """
 
 import math

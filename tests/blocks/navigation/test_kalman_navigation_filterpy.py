@@ -1,7 +1,7 @@
-"""The same filter twice: kalman_navigation against filterpy's matrices over whole flights, and as an FMU.
+"""kalman_navigation compared with filterpy over complete flights, and as an FMU.
 
-Truth: `filterpy.kalman.KalmanFilter` with all matrices written out; 1e-9 m and 1e-9 m/s in every estimate and
-standard deviation. The Python FMU steps as the plain object, to the bit, and its state can be put back.
+Truth: `filterpy.kalman.KalmanFilter` with all matrices written out; 1e-9 m and 1e-9 m/s in every estimate and standard
+deviation. The Python FMU equals the plain object, to the bit, and its state can be restored.
 """
 
 import math

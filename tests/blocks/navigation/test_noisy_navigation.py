@@ -1,4 +1,4 @@
-"""Noisy navigation against chi-square theory, an independent filter and the fix rates.
+"""Noisy navigation compared with chi-square theory, an independent filter and the fix rates.
 
 Truth: motion with white acceleration noise of the density that the filter assumes, made by numpy (exact
 discretisation); the covariance of filterpy at the same fixes and of the Riccati equation by scipy, to 1e-9. Over 200

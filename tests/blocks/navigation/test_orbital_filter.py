@@ -1,7 +1,7 @@
-"""The filter of the orbital attitude.
+"""Extended Kalman filter of the orbital attitude.
 
 Truth: filterpy's extended Kalman filter with the derivatives by complex steps (1e-9 of the states, 1e-12 of the
-covariance); the least possible variance of yaw, in closed form; the bias that yaw hides.
+covariance); the least possible variance of yaw, in closed form; the bias that is not observable next to yaw.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""The observers of the orbital attitude: gains, errors in the linear model, samples that are missing or wrong.
+"""Observers of the orbital attitude: gains, errors in the linear model, missing and invalid samples.
 
-Truth: poles by numpy's eigenvalues; the errors' decay in closed form; the plant's own motion, which an observer that
-follows each pulse must not leave; yaw after ten ticks as another program has it.
+Truth: poles by numpy's eigenvalues; the errors' decay in closed form; the motion of the plant, which an observer that
+integrates each pulse must reproduce; yaw after ten samples by another program.
 """
 
 import math

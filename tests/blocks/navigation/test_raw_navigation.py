@@ -1,4 +1,4 @@
-"""Raw navigation against a trajectory in closed form and the fixes themselves.
+"""Raw navigation compared with a trajectory in closed form and with its position fixes.
 
 Truth: with perfect increments and no fixes, the braking flight of braking_flight.py to 1 mm and 1e-5 m/s; at
 the time of a fix, the fix. An altitude moves the estimate along the local vertical: by geometry, to 1e-9.

@@ -1,4 +1,4 @@
-"""Translation filter against filterpy, and against the statistics that its own covariance promises.
+"""Translation filter compared with filterpy, and with the statistics that its covariance predicts.
 
 Truth: `filterpy.kalman.KalmanFilter` with position and velocity per axis, fed with the same samples and the
 same commanded force; means by numpy; normalised errors and innovations with chi-square intervals over 60 flights

@@ -1,8 +1,8 @@
-"""The lander whose thrust axis is turned, against an adaptive integrator and closed forms.
+"""Lander with a rotating thrust axis, compared with an adaptive integrator and closed forms.
 
-Truth: scipy's DOP853 for translation, thrust, mass and axis together; an axis on a circle at a constant rate; a turn
-under the largest acceleration; the rocket equation down to the dry mass; a stone's parabola under uniform gravity; the
-ground and the probe at heights known in advance.
+Truth: scipy's DOP853 for translation, thrust, mass and axis together; an axis on a circle at a constant rate; a
+rotation with the largest acceleration; the rocket equation down to the dry mass; free fall under uniform gravity;
+ground and probe contact at known heights.
 """
 
 import math

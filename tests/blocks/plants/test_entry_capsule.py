@@ -1,8 +1,8 @@
-"""The entry capsule: motion, attitude, air, pulses.
+"""Entry capsule: motion, attitude, atmosphere, pulses.
 
-Truth: Kepler's arc, conservation of momentum and energy, an independent integration in inertial Cartesian axes with a
-quaternion by scipy's DOP853 (tests/support/flights/entry_motion.py), derivatives of another program. Tolerances at each
-test.
+Truth: a Kepler orbit, conservation of momentum and energy, an independent integration in inertial Cartesian axes with a
+quaternion by scipy's DOP853 (tests/support/flights/entry_motion.py), derivatives from another program. Tolerances are
+stated at each test.
 """
 
 import math

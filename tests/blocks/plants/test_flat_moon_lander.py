@@ -1,9 +1,8 @@
-"""The lander over a flat Moon against closed forms and an adaptive integrator.
+"""Lander over a flat Moon, compared with closed forms and an adaptive integrator.
 
-Truth: parabolas under constant thrust, motion in two pieces when thrust ends inside a step, and scipy's
-DOP853 at 1e-13 relative for a turning thrust direction. Tolerance 1e-12 relative against closed forms,
-1e-11 against DOP853; the fourth order of the integrator is measured, and results may depend on how
-communication cuts a flight by no more than 1e-12 relative.
+Truth: parabolas under constant thrust, motion in two pieces when thrust ends inside a step, and scipy's DOP853 at 1e-13
+relative for a turning thrust direction. Tolerance 1e-12 relative against closed forms, 1e-11 against DOP853; the fourth
+order of the integrator is measured, and results may depend on the communication steps by no more than 1e-12 relative.
 """
 
 import itertools

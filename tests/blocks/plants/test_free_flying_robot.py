@@ -1,9 +1,9 @@
-"""The free-flying robot and the drifting target: motion, conservation, frames and convergence.
+"""Free-flying robot and drifting target: motion, conservation laws, frames and convergence.
 
-Truth: Euler's equations with the torque -H' of the gyros written out (the plant integrates the angular
-momentum instead) by scipy's DOP853 at rtol 1e-12; Jacobi's elliptic functions for the torque-free body;
-conservation of momentum and energy; closed forms of constant and of turning thrust; the published
-axes and arms of the jets. Tolerances at each test.
+Truth: Euler's equations with the explicit gyro torque -H' (the plant integrates the angular momentum instead) by
+scipy's DOP853 at rtol 1e-12; Jacobi's elliptic functions for the torque-free body; conservation of momentum and energy;
+closed forms of constant and of rotating thrust; the published axes and arms of the jets. Tolerances are stated at each
+test.
 """
 
 import itertools

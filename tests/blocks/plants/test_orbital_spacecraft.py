@@ -1,7 +1,7 @@
-"""The spacecraft on its orbit: motion, pulses, conservation, communication steps.
+"""Spacecraft on its orbit: motion, pulses, conservation laws, communication steps.
 
 Truth: direction cosines in inertial axes by scipy's DOP853 (tests/support/flights/orbital_motion.py); Jacobi's
-integral; the digits of another program. Tolerances at each test.
+integral; numbers from another program. Tolerances are stated at each test.
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
-"""The lander in a plane against its published equations, an adaptive integrator and conservation laws.
+"""Planar lander, compared with the published equations, an adaptive integrator and conservation laws.
 
-Truth: V, th, h, central angle and mass of Diveev, Pupkov and Sofronova (2013), with and without the turn of the
-vertical, by scipy's DOP853 at 1e-13 relative (agreement 1e-9 relative, and the fourth order measured); energy
-and angular momentum of free motion; the rocket equation; and a vertical throw through V = 0, where the
-published equations are singular.
+Truth: V, th, h, central angle and mass of Diveev, Pupkov and Sofronova (2013), with and without rotation of the
+vertical, by scipy's DOP853 at 1e-13 relative (agreement 1e-9 relative, and the fourth order measured); energy and
+angular momentum of free motion; the rocket equation; and a vertical throw through V = 0, where the published equations
+are singular.
 """
 
 import itertools

@@ -1,7 +1,7 @@
-"""The spacecraft: flights of another program, closed forms, conservation.
+"""Spacecraft: trajectories from another program, closed forms, conservation laws.
 
-Truth: flights by DOP853 at 2e-13 and modes by another program, which share no code with the plant; conservation of
-momentum and energy, the order of the method. All forces at once are in its check.
+Truth: trajectories by DOP853 at 2e-13 and modes, both from another program that shares no code with the plant;
+conservation of momentum and energy; the order of the method. The check of the block combines all forces.
 """
 
 import numpy as np

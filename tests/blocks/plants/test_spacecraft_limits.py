@@ -1,6 +1,6 @@
-"""The spacecraft's statuses, what they answer, and a plate without a normal; a plant with another density.
+"""Statuses of the spacecraft, a plate without a normal, and a plant with a different density.
 
-Truth: the limits as declared; flights that must be equal to the last bit; closed forms.
+Truth: the declared limits; simulations that must be equal to the last bit; closed forms.
 """
 
 import fmpy

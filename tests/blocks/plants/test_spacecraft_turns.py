@@ -1,7 +1,8 @@
-"""Residual motion of a flexible mode after an open-loop turn.
+"""Residual motion of a flexible mode after an open-loop slew.
 
-Truth: the response of an undamped oscillator to the angular acceleration of the turn, in closed form. The hub's
-amplitude is s/(1 - s) J(W_ff)/W_ff with the fraction s of the inertia and J the size of the acceleration's transform.
+Truth: the response of an undamped oscillator to the angular acceleration of the slew, in closed form. The hub's
+amplitude is s/(1 - s) J(W_ff)/W_ff where s is the fraction of the inertia and J the magnitude of the acceleration's
+Fourier transform.
 """
 
 from math import pi, sqrt

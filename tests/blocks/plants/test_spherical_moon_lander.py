@@ -1,10 +1,9 @@
-"""The lander over a spherical Moon against closed forms, Kepler's laws and an adaptive integrator.
+"""Lander over a spherical Moon, compared with closed forms, Kepler's laws and an adaptive integrator.
 
-Truth: scipy's DOP853 at 1e-12 relative for everything together, with cross products for the attitude;
-Kepler's equation for free flight; the rocket equation; closed forms of the first-order lag and of the slew
-limit; a stone's parabola for the ground. Without lag, response and limit, over a Moon so large that it is
-flat, the same motion as by DOP853 to 1e-11. The order of convergence is measured, and results may depend on
-how communication cuts a flight by no more than rounding.
+Truth: scipy's DOP853 at 1e-12 relative for the complete motion, with cross products for the attitude; Kepler's equation
+for free flight; the rocket equation; closed forms of the first-order lag and of the slew limit; free fall for ground
+contact. Without lag, response time and limit, over a Moon of very large radius, the motion agrees with DOP853 to 1e-11.
+The order of convergence is measured, and results may depend on the communication steps by no more than rounding.
 """
 
 import itertools

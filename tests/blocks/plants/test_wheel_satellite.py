@@ -1,7 +1,7 @@
-"""The satellite with reaction wheels: conservation, closed forms, limits.
+"""Satellite with reaction wheels: conservation laws, closed forms, limits.
 
-Truth: conservation of momentum and energy; closed forms of one wheel on one axis; the convergence of a method of fourth
-order. The equations themselves are in its check, and in the cross-check against Basilisk.
+Truth: conservation of momentum and energy; closed forms of one wheel on one axis; convergence of fourth order. The full
+equations are covered by the block's check, and by the cross-check against Basilisk.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""The sensor of thrust axis and rate.
+"""Sensor of thrust axis and angular rate.
 
-Truth: the axis itself where all sigmas are 0; scipy's rotations for one small error; chi-square intervals (99.9 %) for
-the sizes of the errors, over flights for the constant one and along one flight for the white ones.
+Truth: the true axis if all sigmas are 0; scipy's rotations for one small error; chi-square intervals (99.9 %) for error
+magnitudes, over simulations for the constant error and over one simulation for white noise.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""The GPS receiver: sizes and correlation of its errors, latency, time of samples, outages.
+"""GPS receiver: magnitude and correlation of errors, latency, sample times, outages.
 
-Truth: the motion itself without errors; chi-square intervals (99.9 %); e^(-t/tau) for the autocorrelation, within
+Truth: the true motion without errors; chi-square intervals (99.9 %); e^(-t/tau) for the autocorrelation, within
 Bartlett's standard deviations (1946) for a first-order process.
 """
 

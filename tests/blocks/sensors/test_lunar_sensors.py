@@ -1,8 +1,8 @@
 """Inertial sensor, radar altimeter, Doppler velocimeter and terrain camera.
 
-Truth: the motion itself where all sigmas are 0; for the errors numpy's sums of squares within two-sided
-99.9 % chi-square intervals, Kolmogorov and Smirnov's test and correlations, at fixed seeds; scipy's small
-rotations for the misalignment; exact sample instants and altitudes at the gates.
+Truth: the true motion if all sigmas are 0; for the errors, sums of squares within two-sided 99.9 % chi-square
+intervals, Kolmogorov-Smirnov tests and correlations, at fixed seeds; scipy's rotations for the misalignment; exact
+sample instants and altitude limits.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""The magnetometer: its errors one after another, its limits, and the numbers that it draws.
+"""Magnetometer: each error separately, limits, and random numbers.
 
-Truth: numbers by hand and a matrix by numpy for the errors that stay, chi-square intervals (99.9 %) for drawn ones.
+Truth: numbers by hand and a matrix by numpy for constant errors, chi-square intervals (99.9 %) for random errors.
 """
 
 import math

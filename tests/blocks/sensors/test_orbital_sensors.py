@@ -1,4 +1,4 @@
-"""Infrared vertical and rate gyros against the distributions that they state.
+"""Infrared vertical and rate gyros: errors have the declared distributions.
 
 Truth: normal and uniform distributions (Kolmogorov-Smirnov at 0.1 %), white or first-order errors (correlations within
 4 standard deviations), exactness without errors.

@@ -1,4 +1,4 @@
-"""The sensor of path angle and altitude against the distribution that it states.
+"""Sensor of path angle and altitude: errors have the declared distribution.
 
 Truth: the uniform distribution (Kolmogorov-Smirnov test at 0.1 %), independence of the errors from sample to sample, of
 each other and of other streams (correlation within 4 standard deviations of zero), and exactness without noise.

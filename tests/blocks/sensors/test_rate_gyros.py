@@ -1,7 +1,7 @@
-"""Rate gyros: errors one after another, limits, latency, and the Allan deviation of all of them together.
+"""Rate gyros: each error separately, limits, latency, and the Allan deviation of all errors together.
 
-Truth: numbers by hand for the errors that stay; IEEE Std 952's closed form of the Allan variance of white noise, of
-rounding, of a first-order Gauss-Markov bias and of a rate random walk, within chi-square intervals.
+Truth: numbers by hand for constant errors; the closed forms of IEEE Std 952 for the Allan variance of white noise,
+quantisation, a first-order Gauss-Markov bias and a rate random walk, within chi-square intervals.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Star-inertial attitude and laser ranger: their errors have the distributions that they declare.
+"""Star-inertial attitude sensor and laser ranger: errors have the declared distributions.
 
 Truth: rotation vectors by scipy; chi-square and Kolmogorov-Smirnov tests of scipy with fixed seeds, at 1e-3, on 20 000
 samples (10 000 in `make test`); the sensors' timing through `BlockInstance`, the FMI life cycle.

@@ -1,6 +1,6 @@
-"""The star tracker of `star_inertial`: exclusions, latency with the time of samples, its error about the boresight.
+"""Star tracker of `star_inertial`: exclusion angles, latency and sample times, error about the boresight.
 
-Truth: angles set up by scipy's rotations; chi-square intervals (99.9 %).
+Truth: geometry set up by scipy's rotations; chi-square intervals (99.9 %).
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Sun sensors: the direction of coarse heads, of the fine head, and samples without the Sun.
+"""Sun sensors: direction from the coarse heads and from the fine head, and samples without the Sun.
 
-Truth: the direction itself, rotations by scipy, cosines by hand, chi-square intervals (99.9 %) for errors.
+Truth: the true direction, rotations by scipy, cosines by hand, chi-square intervals (99.9 %) for errors.
 """
 
 import math

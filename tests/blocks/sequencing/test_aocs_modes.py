@@ -1,4 +1,4 @@
-"""Modes of a satellite from separation to nadir: every transition at its exact sample, and what each mode orders.
+"""Modes of a satellite from separation to nadir: every transition at its exact sample, and the outputs of each mode.
 
 Truth: the rules and times of docs/systems/earth_pointing.md written out; attitudes by scipy.
 """

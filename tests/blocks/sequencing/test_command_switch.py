@@ -1,6 +1,6 @@
-"""The switch of commands, against its table written out: whose values, with or without thrust.
+"""Command switch, compared with its truth table: source of the values, with and without thrust.
 
-Truth: the definition, over all sources and both states of the engine, with values that cannot be mistaken.
+Truth: the definition, for all sources and both states of the engine, with a distinct value for every variable.
 """
 
 import pytest

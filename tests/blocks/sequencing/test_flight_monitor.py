@@ -1,7 +1,7 @@
-"""The end of a flight, against its definition written out for every case.
+"""Flight monitor: the end of a flight, compared with its definition case by case.
 
-Truth: the definition (guidance finished, slow inside the band, or on the ground), evaluated here over whole random
-flights with Python's any().
+Truth: the definition (guidance finished, slow inside the altitude band, or on the ground), evaluated with Python's
+any() over random flights.
 """
 
 import pytest

@@ -1,8 +1,8 @@
-"""The landing sequencer whatever its phase: with which it may begin, what ends a flight, what is remembered, refused.
+"""Landing sequencer in all phases: permitted start phases, ends of a flight, status history, refusals.
 
-Truth: the rules as docs/systems/landing_mission.md has them; and, over random inputs, what must hold of any flight:
-phases only go on, one at a time, the status is the largest so far, a re-designation stays within its reach, targets lie
-above the site.
+Truth: the rules in docs/systems/landing_mission.md; and, for random inputs, invariants of every flight: phases only
+advance, one at a time, the status is the highest so far, a re-designation stays within its reach, and targets are above
+the site.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""The landing sequencer while it brakes: the engine's ignition, where the hover begins, timeouts of phases.
+"""Landing sequencer during braking: ignition of the engine, start of the hover, timeouts of phases.
 
-Truth: the rules as docs/systems/landing_mission.md has them, with times and thresholds written out.
+Truth: the rules in docs/systems/landing_mission.md, with times and thresholds written out.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""The landing sequencer's cycle and its handshake with the guidances: when inputs count, and which.
+"""Decision cycle of the landing sequencer and its handshake with the guidances: which inputs are used, and when.
 
-Truth: one and the same history of inputs, sampled by other communication steps, must give the same decisions; and the
-rules as docs/systems/landing_mission.md has them.
+Truth: the same history of inputs with different communication steps must give the same decisions; the rules in
+docs/systems/landing_mission.md.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""The landing sequencer from its first hover on: targets, re-designations, plans and the descent to the ground.
+"""Landing sequencer from the first hover on: targets, re-designations, plans and the descent to the ground.
 
-Truth: the rules as docs/systems/landing_mission.md has them, with times and thresholds written out.
+Truth: the rules in docs/systems/landing_mission.md, with times and thresholds written out.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""The landing sequencer on its orbit: when the deorbit burn begins and ends, and the coast.
+"""Landing sequencer on the orbit: begin and end of the deorbit burn, and the coast.
 
-Truth: the rules as docs/systems/landing_mission.md has them, with times and thresholds written out; the burn's length
-from the ellipse's own speeds.
+Truth: the rules in docs/systems/landing_mission.md, with times and thresholds written out; the burn's duration from the
+speeds on the ellipse.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The touchdown monitor against its definition.
+"""Touchdown monitor, compared with its definition.
 
 Truth: the values at the first contact, taken by numpy, and the five limits evaluated one by one, over random flights.
 """

@@ -1,6 +1,6 @@
-"""Convex guidance: flights, times of flight, new plans, and each status.
+"""Convex guidance: descents, times of flight, new plans, and each status.
 
-Truth: Clarabel's paths of another formulation, and a point mass in the central field by Runge and Kutta's method.
+Truth: solutions of a different formulation by Clarabel, and a point mass in the central field by a Runge-Kutta method.
 """
 
 import math

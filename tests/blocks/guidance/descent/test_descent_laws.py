@@ -1,7 +1,7 @@
-"""Descent laws that know the engine: their times, limits and flights.
+"""Descent laws that respect engine limits: times to go, limits and descents.
 
-Truth: the printed times and impulses, computed apart; scipy's minimiser over profiles solved by numpy; the exact
-analytic guidance with an equal time; the target itself (flights over a round Moon).
+Truth: times and impulses computed by a separate program; scipy's minimiser over profiles solved by numpy; the exact
+analytic guidance with an equal time to go; arrival at the target (descents over a spherical Moon).
 """
 
 import math

@@ -1,7 +1,7 @@
-"""The slot's divert: a target that changes in flight.
+"""Diverts of the terminal guidances: a target that changes in flight.
 
-Truth: a fresh guidance at the same place and time with the new target, whose commands are those of the diverted one to
-the bit; the place itself (flights); the guidance that knows no divert.
+Truth: a new guidance started at the same state and time with the new target, whose commands equal those after the
+divert to the bit; arrival at the target; the same guidance without a divert.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""Attitude to follow on an orbit: nadir, Sun, a fixed one, and when the last one stays.
+"""Reference attitude on an orbit: nadir, Sun, inertially fixed, and conditions under which the last reference is held.
 
-Truth: a value computed outside this package; an orbit with J2 flown by scipy's DOP853, whose attitudes are differenced;
-scipy's Rotation.align_vectors.
+Truth: a value computed outside this package; an orbit with J2 by scipy's DOP853, with numerical derivatives of its
+attitudes; scipy's Rotation.align_vectors.
 """
 
 import functools

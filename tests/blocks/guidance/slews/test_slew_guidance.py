@@ -1,6 +1,6 @@
-"""Slews: shortest within their limits, continuous, the shorter way round, and met by a torque in steps.
+"""Slews: shortest time within limits, continuity, the shorter direction of rotation, and torque in steps.
 
-Truth: closed forms of both profiles; scipy's rotations; integrals of what is put out.
+Truth: closed forms of both profiles; scipy's rotations; integrals of the outputs.
 """
 
 import math

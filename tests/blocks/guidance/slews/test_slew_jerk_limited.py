@@ -1,7 +1,8 @@
-"""Turns between attitudes and angular velocities within limits of rate, acceleration and jerk.
+"""Slews between attitudes and angular velocities within limits of rate, acceleration and jerk.
 
-Truth: the limits, over random turns and boundary rates; the attitude that the angular velocities add up to; the closed
-forms of ramps about an axis; the slew without a limit of jerk, which is faster, and the polynomial, which is not.
+Truth: the limits, for random slews and boundary rates; the attitude integrated from the angular velocity; closed forms
+of ramps about an axis; bounds by the slew without a jerk limit, which is faster, and by the polynomial, which is
+slower.
 """
 
 import math

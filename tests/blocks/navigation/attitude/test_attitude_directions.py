@@ -1,7 +1,7 @@
-"""Directions of Sun and field in the attitude filter: one of them, both from the start (TRIAD), samples to leave out.
+"""Sun and field directions in the attitude filter: one direction, both at the start (TRIAD), and rejected samples.
 
-Truth: P s/(P + s) across a direction and P along it for an isotropic prior; numpy's inverse for the innovation;
-scipy's rotations; a chi-square test of the normalised error of simulated flights.
+Truth: variance P s/(P + s) perpendicular to a direction and P along it for an isotropic prior; numpy's inverse for the
+innovation; scipy's rotations; a chi-square test of the normalised error of simulations.
 """
 
 import math

@@ -1,8 +1,8 @@
-"""Attitude filter against an integrated rigid body, filterpy, and the statistics that its covariance promises.
+"""Attitude filter compared with an integrated rigid body, filterpy, and the statistics that its covariance predicts.
 
 Truth: a tumbling body with gyros and jets by scipy's DOP853 at 1e-12, from Euler's equations; filterpy for small
 angles; means by numpy, rotations by scipy; normalised errors and innovations with chi-square intervals over
-simulated flights.
+simulations.
 """
 
 import itertools

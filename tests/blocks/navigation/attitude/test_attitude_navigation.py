@@ -1,7 +1,7 @@
-"""The multiplicative filter of attitude and gyro bias: its steady state, its consistency, missing samples.
+"""Multiplicative filter of attitude and gyro bias: steady state, consistency, missing samples.
 
 Truth: Farrenkopf's closed form (1978, as in Markley and Crassidis 2014, section 6.3.3) and scipy's algebraic Riccati
-equation for the steady covariance; a chi-square test of the normalised error of simulated flights.
+equation for the steady covariance; a chi-square test of the normalised error of simulations.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Star samples that arrive late in a turning body: turned on by the gyros, they equal those on time.
+"""Late star tracker samples of a rotating body: propagated with gyro data, they equal samples without latency.
 
-Truth: the same filter with the samples on time, and scipy's rotations of the motion.
+Truth: the same filter with samples without latency, and the motion by scipy's rotations.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The estimate monitor against numpy's solution and chi-square theory.
+"""Estimate monitor compared with numpy's linear solver and the chi-square distribution.
 
 Truth: `numpy.linalg.solve` of random positive covariances, to 1e-9; errors drawn from a covariance have
 a normalised square that is chi-square distributed with six degrees of freedom.

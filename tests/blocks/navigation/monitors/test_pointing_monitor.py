@@ -1,6 +1,6 @@
-"""A satellite's monitor on boresight and estimate.
+"""Pointing monitor of a satellite.
 
-Truth: a turn about the boresight moves nothing of it; spherical geometry; scipy's rotation vectors.
+Truth: a rotation about the boresight does not move it; spherical geometry; scipy's rotation vectors.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Rendezvous monitor against vectors by numpy and rotations by scipy."""
+"""Rendezvous monitor. Truth: vectors by numpy and rotations by scipy."""
 
 import numpy as np
 import pytest
