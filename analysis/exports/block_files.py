@@ -80,9 +80,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         paths = tuple(path.relative_to(Path.cwd()) for path in written)
         return ExportedFiles(paths, built, tuple(platforms) if "native" in built else ())
     if output.suffix != ".fmu" or len(blocks) > 1:
-        problem = (
-            "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are more than one FMU"
-        )
+        problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} need one FMU each"
         raise InputError("`output`", str(output), problem, "leave out `output`: FMUs are written to build/fmus")
     if flavour is None and blocks[0].python_only and fmi == 2:
         flavours = ["python"]

@@ -41,13 +41,13 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
 def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
     """Return the error, with its remedy, for native FMUs without a C compiler."""
     other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
-    return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
+    return InputError("export", str(element), "no C compiler was found", f"pip install ziglang, or {other}")
 
 
 def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputError:
     """Return the error, with its remedy, for a block that cannot be compiled."""
     if fmi == 3:
-        return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
+        return InputError(file, element, "needs Python, but Python FMUs are FMI 2.0 FMUs", "leave out `fmi`")
     return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 

@@ -29,7 +29,7 @@ class ExportRequest:
 
     def __post_init__(self) -> None:
         if self.platforms and self.flavour == "python":
-            problem = "Python FMUs have no platform to choose"
+            problem = "Python FMUs do not depend on a platform"
             raise InputError("`platforms`", self.platforms[0], problem, "leave out `platforms`")
         if self.fmi == 3 and self.flavour == "python":
             raise InputError("`flavour`", "python", "Python FMUs are FMI 2.0 FMUs", "leave out `flavour` or `fmi`")
@@ -44,10 +44,10 @@ class ExportRequest:
         for option, is_chosen in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
             if is_chosen:
                 value = str(getattr(self, option))
-                problem = "a system as one FMU is an FMI 2.0 FMU made of native FMUs"
+                problem = "a system exported as one FMU is an FMI 2.0 FMU compiled from native FMUs"
                 raise InputError(f"`{option}`", value, problem, f"leave out `{option}` or `as_fmu`")
         if self.studies:
-            problem = "a system as one FMU cannot contain reports"
+            problem = "a system exported as one FMU cannot contain reports"
             raise InputError("`studies`", self.studies[0], problem, "leave out `studies` or `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:

@@ -49,7 +49,7 @@ def export_system(
                 else:
                     element = f"{component.get('name')} (line {component.sourceline})"
                     problem = (
-                        f"no {source} in the system, no such FMU in this repository, no {' or '.join(map(str, paths))}"
+                        f"{source} was not found in the system, in this repository or as {' or '.join(map(str, paths))}"
                     )
                     remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)

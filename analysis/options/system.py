@@ -83,7 +83,7 @@ class TreatmentOptions(TypedDict, total=False):
     strict: Annotated[bool, Option("refuse FMUs whose descriptions violate rules of FMI", False)]
     open_inputs: Annotated[
         OpenInputs | None,
-        Option("unconnected inputs: refuse them, or keep their start values; default: refuse, start for an FMU alone"),
+        Option("unconnected inputs: refuse them, or keep their start values; default: refuse; for an FMU alone, start"),
     ]
     feedthrough: Annotated[
         Sequence[str],
@@ -140,8 +140,8 @@ class SimulationOptions(TypedDict, total=False):
     log: Annotated[
         LogLevel | None,
         Option(
-            "FMU log messages on standard error: error (discard, error, fatal), warning too, info (all that are sent), "
-            "all (with all categories switched on)"
+            "print FMU log messages on standard error: error (discard, error, fatal), warning (also warnings), "
+            "info (all messages sent), all (all categories switched on)"
         ),
     ]
     timeout: Annotated[
@@ -160,7 +160,7 @@ class RequireOptions(TypedDict, total=False):
 
     require: Annotated[
         Sequence[str],
-        Option("exit status 1 unless the expression is true of the result's numbers", (), metavar="EXPRESSION"),
+        Option("exit with status 1 unless this expression over the result's numbers is true", (), metavar="EXPRESSION"),
     ]
 
 

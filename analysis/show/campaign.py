@@ -69,7 +69,7 @@ class OpenCampaign:
         try:
             return {name: describe_column(name, self.source.provenance) for name in ordered}
         except (KeyError, TypeError, AttributeError) as error:
-            problem = f"{error}: not declared in the campaign's summary"
+            problem = f"the campaign's summary does not declare {error}"
             raise InputError(path, "", problem, NEW_FOLDER) from error
 
     @cached_property
@@ -137,9 +137,9 @@ def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
     """
     campaign = OpenCampaign(read_folder(folder), is_stopped)
     if campaign.rows > ROW_LIMIT:
-        problem = f"{campaign.rows} trials of all variants; at most {ROW_LIMIT} can be shown"
+        problem = f"all variants together have {campaign.rows} trials, but at most {ROW_LIMIT} can be shown"
         raise InputError(
-            folder, "", problem, "query its parquet files; `perilune docs` says how under Querying results"
+            folder, "", problem, "query its parquet files as `perilune docs` describes under Querying results"
         )
     _ = campaign.quantities
     return campaign

@@ -37,7 +37,7 @@ def read_query(text: str, columns: int, variants: int) -> Query:
     """Read a query about a campaign with these numbers of columns and variants. Raises InputError."""
     remedy = "reload the page"
     if len(text) > LONGEST:
-        raise InputError("query", "", f"{len(text)} characters, at most {LONGEST} are read", remedy)
+        raise InputError("query", "", f"the query has {len(text)} characters, but at most {LONGEST} are read", remedy)
     try:
         query = msgspec.json.decode(text, type=Query)
     except (msgspec.DecodeError, RecursionError) as error:
@@ -45,8 +45,10 @@ def read_query(text: str, columns: int, variants: int) -> Query:
     numbers = [*query.histograms, *(index for pair in query.grids for index in pair)]
     column = max([*numbers, *(each.column for each in query.ranges)], default=0)
     if column >= columns:
-        raise InputError("query", "", f"asks for column {column + 1}, but the campaign has {columns}", remedy)
+        raise InputError("query", "", f"asks for column {column + 1}, but the campaign has {columns} columns", remedy)
     variant = max(query.variants or [], default=0)
     if variant >= variants:
-        raise InputError("query", "", f"asks for variant {variant + 1}, but the campaign has {variants}", remedy)
+        raise InputError(
+            "query", "", f"asks for variant {variant + 1}, but the campaign has {variants} variants", remedy
+        )
     return query

@@ -76,7 +76,9 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
             (item.loop, item.point) == (sweep.loop, sweep.point) for result in results for item in result.loops
         )
         if known is None or not has_loop:
-            unstudied.append(FailedStudy(sweep.name, sweep.point, "sweep", "its loop has no linear model there"))
+            unstudied.append(
+                FailedStudy(sweep.name, sweep.point, "sweep", "its loop has no linear model at this point")
+            )
             continue
         subject = Subject(request.system, request.options)
         loop, point = request.loop(sweep.loop), request.point(sweep.point)

@@ -33,7 +33,7 @@ class DrawSpace:
         names = [name for draw in campaign.draws for name in draw.names]
         for name in self.held:
             if name not in names:
-                raise InputError("`hold`", name, f"{campaign.file} does not draw it", suggestion(name, names))
+                raise InputError("`hold`", name, f"{campaign.file} does not draw this value", suggestion(name, names))
         self._varied = [pair for pair in map(self._coordinates, campaign.draws) if pair is not None]
         self.size = sum(distribution.size for _, distribution in self._varied)
         if not may_be_empty:

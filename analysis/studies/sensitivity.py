@@ -41,7 +41,7 @@ def sensitivity(
     The points are drawn with the campaign's seed; ``workers`` does not change the result. Raises InputError.
     """
     if base < 32 or base & (base - 1):
-        raise InputError("`base`", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
+        raise InputError("`base`", str(base), "not 32, 64, 128 or a higher power of two", "give 64, 128, 256, ...")
     space = DrawSpace(plan.campaign, hold)
     if not space.independent:
         draw = next(draw for draw in plan.campaign.draws if len(draw.names) > 1 and draw.names[0] in space.names)
@@ -89,7 +89,7 @@ def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict
     for name, values in metrics.items():
         if name not in with_indices:
             lacking = int(np.sum(~np.isfinite(values)))
-            reasons[name] = f"not finite in {lacking} flights" if lacking else f"{values[0]:g} in all flights"
+            reasons[name] = f"not finite in {lacking} simulations" if lacking else f"{values[0]:g} in all simulations"
     return reasons
 
 

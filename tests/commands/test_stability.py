@@ -211,7 +211,7 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
     [
         (["--loop", "lop"], "--loop: lop: the SSD declares no such loop; "),
         (["--loop", "plant.q"], "no connector plant.q"),
-        (["--at", "3,-1"], "--at: -1: not a time of the simulation; give seconds from 0 on"),
+        (["--at", "3,-1"], "--at: -1: not a time of the simulation; give 0 s or later"),
         (["--data", "/dev/null/x"], "--data: /dev/null/x: /dev/null is a file; give another folder"),
         (["--trial", "0"], "--trial: 0: needs a campaign"),
         (["--trials", "3"], "--trials: 3: needs a campaign"),

@@ -112,7 +112,7 @@ def test_another_campaign_in_its_place(folder):
 def test_a_column_that_the_summary_does_not_declare(folder, capsys):
     for path in (folder / "trials").iterdir():
         change(path, lambda table: table.append_column("metric.other", table["end_time"]))
-    assert "'other': not declared in the campaign's summary" in refusal(folder, capsys)
+    assert "the campaign's summary does not declare 'other'" in refusal(folder, capsys)
 
 
 def test_wrong_options(campaign_folder, refusal):

@@ -125,17 +125,17 @@ WRONG = {
     "direction's rate without the time ahead": (
         '<Loop name="l" cut="a.b" direction="a.d" direction_rate="a.r" points="hold"/>',
         "Loop",
-        "direction_rate and ahead need each other",
+        "direction_rate and ahead must be given together",
     ),
     "time ahead without a direction's rate": (
         '<Loop name="l" cut="a.b" direction="a.d" ahead="0.1" points="hold"/>',
         "Loop",
-        "direction_rate and ahead need each other",
+        "direction_rate and ahead must be given together",
     ),
     "direction's rate without a direction": (
         '<Loop name="l" cut="a.b" direction_rate="a.r" ahead="0.1" points="hold"/>',
         "Loop",
-        "direction_rate and ahead need each other, and a direction",
+        "direction_rate and ahead must be given together, and with a direction",
     ),
     "unknown attribute of a loop": ('<Loop name="l" cut="a.b" points="hold" perod="1"/>', "Loop", "attribute perod"),
     "period of 0": ('<Loop name="l" cut="a.b" points="hold" period="0"/>', "Loop", "period '0' is not a positive"),

@@ -122,7 +122,7 @@ def test_held_draws_have_one_value(campaign):
         (GRID, {}, "draw.case: a grid has discrete values"),
         (RANDOM + CHOICE, {"mode": 3}, "hold: mode: 3 is not one of its values; use 1, 2, 4"),
         (RANDOM, {"x": 1}, "hold: x: is drawn together with y, z; hold all of them or none"),
-        (RANDOM, {"moss": 1}, "hold: moss: test.toml does not draw it.*mass"),
+        (RANDOM, {"moss": 1}, "hold: moss: test.toml does not draw this value.*mass"),
         (CHOICE, {"mode": 1}, "no draw varies"),
     ],
 )

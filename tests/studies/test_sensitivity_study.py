@@ -58,7 +58,7 @@ def test_the_shares_of_a_sum(linear, tmp_path):
         for name, fraction in zip("abc", SHARES, strict=True):
             low, high = total[f"{name}.gain"][f"{order}_interval"]
             assert low < fraction < high
-    assert result.without_indices == {"same": "-1 in all flights", "success": "1 in all flights"}
+    assert result.without_indices == {"same": "-1 in all simulations", "success": "1 in all simulations"}
     assert result.flights == 256 * 5
     assert json.loads((tmp_path / "out" / "sensitivity.json").read_text()) == result.json_document(tmp_path / "out")
     assert pyarrow.parquet.read_table(tmp_path / "out" / "flights.parquet").num_rows == 1280
@@ -74,7 +74,7 @@ def test_the_command_says_its_price_first(linear, capsys):
     assert captured.out.startswith(
         "Sobol' indices of 1 of 3 numbers (metrics and success), by 128 simulations, conditional on b.gain = 1\n"
     )
-    assert "same: no indices, -1 in all flights" in captured.out
+    assert "same: no indices, -1 in all simulations" in captured.out
     lines = captured.out.splitlines()
     table = next(row for row, line in enumerate(lines) if line.startswith("parameter"))
     first, second = (text.split()[0] for text in lines[table + 1 : table + 3])
@@ -84,7 +84,7 @@ def test_the_command_says_its_price_first(linear, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--base", "100"], "--base: 100: not a power of two from 32 on"),
+        (["--base", "100"], "--base: 100: not 32, 64, 128 or a higher power of two"),
         (["--base", "16"], "--base: 16"),
     ],
 )

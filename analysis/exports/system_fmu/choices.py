@@ -55,7 +55,9 @@ class Preparation:
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):
                 remedy = "give each candidate once, and rename files with the same name"
-                raise InputError("`slots`", f"{slot}={','.join(candidates)}", "two candidates have one name", remedy)
+                raise InputError(
+                    "`slots`", f"{slot}={','.join(candidates)}", "two candidates have the same name", remedy
+                )
         count = 1
         for candidates in self.slots.values():
             count *= len(candidates)
@@ -66,7 +68,7 @@ class Preparation:
             _check(choice.prepared)
         if len({(each.prepared.start, each.prepared.step, each.prepared.steps) for each in choices}) > 1:
             steps = ", ".join(dict.fromkeys(f"{each.prepared.step:g} s" for each in choices))
-            problem = f"the candidates' systems differ in times, with steps of {steps}"
+            problem = f"start, step or duration of the simulation depends on the candidate (steps: {steps})"
             raise InputError("`slots`", ", ".join(self.slots), problem, "give `step` and `stop_time`")
         return choices
 
@@ -168,7 +170,7 @@ def _start_reached(network: Network, name: str) -> float | None:
 def check_type(network: Network, node: Node) -> None:
     """Reject a system connector of a type that no block has. Raises InputError."""
     if node.type_name in TEXTS:
-        raise InputError(network.file, node.where, f"of type {node.type_name}, which is not supported", NOT_ONE)
+        raise InputError(network.file, node.where, f"its type, {node.type_name}, is not supported", NOT_ONE)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:

@@ -125,10 +125,10 @@ def read_component_source(fmu: Fmu, name: str) -> BlockCode:
     known = all(sources.get(header, "").encode() == ours[header] for header in SHARED)
     tables = TABLES.search(main)
     if not (main.endswith(END) and known and tables):
-        raise InputError(fmu.label, "sources", "its C is of another build of Perilune", REMEDY)
+        raise InputError(fmu.label, "sources", "its C source is from another version of Perilune", REMEDY)
     members = tuple(StructMember(*match.groups()) for match in ELEMENT.finditer(main))
     if len(members) != len(fmu.variables):
-        problem = f"its C has {len(members)} variables, its modelDescription.xml {len(fmu.variables)}"
+        problem = f"its C source has {len(members)} variables, but its modelDescription.xml has {len(fmu.variables)}"
         raise InputError(fmu.label, "sources", problem, REMEDY)
     text = main.replace(tables[0], "").removesuffix(END)
     return BlockCode(f"{name}_", rename(text, f"{name}_"), members)

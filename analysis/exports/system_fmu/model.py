@@ -131,7 +131,9 @@ class SystemModel:
         self.signals = {name: self._constants.new(f"S_{name}".upper()) for name in signals}
         for name in self.exposed:
             if name not in signals:
-                raise InputError("`expose`", name, "no signal of the system", "name a variable as component.variable")
+                raise InputError(
+                    "`expose`", name, "not a signal of the system", "name a variable as component.variable"
+                )
         self.types = {name: kind for program in self.programs for name, kind in program.layout.types.items()}
         self.units = {name: unit for program in self.programs for name, unit in program.layout.units.items()}
         for name in (*self.exposed, *self.faulty):

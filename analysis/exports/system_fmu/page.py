@@ -64,18 +64,18 @@ def system_page(
 def _conditions(model: SystemModel, dependencies: Mapping[str, Sequence[str]]) -> list[str]:
     step = model.first.step
     texts = [
-        f"A communication step is {step:g} s or a multiple of it, of as many whole steps of the system, during which "
-        "inputs are held; other steps are refused.",
-        "Once the system has ended, all values stay as they are, and fmi2GetBooleanStatus(fmi2Terminated) is true.",
-        "States are saved, restored and serialised whole. Instances are independent of one another.",
+        f"A communication step must be a whole multiple of {step:g} s, the step of the system; inputs are held "
+        "constant during it. Other steps are refused.",
+        "Once the system has ended, all values stay constant, and fmi2GetBooleanStatus(fmi2Terminated) is true.",
+        "The complete state can be saved, restored and serialised. Instances are independent of one another.",
     ]
     if dependencies:
         pairs = "; ".join(f"{output} on {', '.join(inputs)}" for output, inputs in dependencies.items())
         texts.append(
-            f"Outputs depend directly on inputs: {pairs}. As a component of another system the FMU is therefore "
-            "stepped with the inputs of the step's end, all of it. Nested in that system as it stands, its components "
-            "without direct dependence would be given those of the step's start: there the results differ by one "
-            "step's change of these inputs."
+            f"Outputs depend directly on inputs: {pairs}. As a component of another system, the whole FMU is "
+            "therefore stepped with inputs from the end of the step. If the original system is nested there "
+            "instead, its components without direct dependence receive inputs from the start of the step: "
+            "results differ by the change of these inputs over one step."
         )
     return texts
 

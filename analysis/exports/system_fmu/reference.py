@@ -60,7 +60,9 @@ def record_reference(
     }
     return files, [
         Related(f"{FOLDER}/{OUTPUTS}", "result", CSV, experiment.description),
-        Related(f"{FOLDER}/{EXPERIMENT}", "experiment/validation", EXPERIMENTS, "how to reproduce the trajectory"),
+        Related(
+            f"{FOLDER}/{EXPERIMENT}", "experiment/validation", EXPERIMENTS, "experiment that reproduces the trajectory"
+        ),
     ]
 
 

@@ -25,7 +25,7 @@ class OneFmu:
     def __post_init__(self) -> None:
         for slot, candidates in self.slots.items():
             if not all(candidates) or not candidates:
-                problem = "an empty name among the candidates"
+                problem = "a candidate has an empty name"
                 raise InputError("`slots`", f"{slot}={','.join(candidates)}", problem, "give SLOT=FMU,FMU")
             if slot in self.options.use and self.options.use[slot] not in candidates:
                 problem = f"`use` gives {self.options.use[slot]}, which is not among the candidates"

@@ -34,7 +34,7 @@ class RunOptions(SystemKeywords, SimulationOptions, RequireOptions, total=False)
     record: Annotated[
         Sequence[str],
         Option(
-            "record any other variable too: a local one, a parameter; may be repeated",
+            "also record this local variable or parameter; may be repeated",
             (),
             metavar="COMPONENT.VARIABLE",
         ),
@@ -72,7 +72,7 @@ RUN = Verb(
 CAMPAIGN = Argument(
     "campaign", "NAME", "a campaign of the system, or a .toml file", completer="campaigns", is_option=True
 )
-FOLDER = Argument("folder", "DIR", "the folder of a campaign, of batch or prepare")
+FOLDER = Argument("folder", "DIR", "the folder of a campaign, written by batch or prepare")
 OF_CAMPAIGN = "a requirement of the campaign is not met or undecided, a --require is not met, or a simulation failed"
 
 
@@ -86,7 +86,7 @@ class CampaignOptions(SystemKeywords, SimulationOptions, total=False):
     ]
     configuration: Annotated[
         str | None,
-        Option("only this configuration of the campaign, or this compared FMU", metavar="NAME"),
+        Option("use only this configuration of the campaign, or this compared FMU", metavar="NAME"),
     ]
 
 
@@ -114,7 +114,7 @@ class ExecutionOptions(TypedDict, total=False):
     ]
     scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]
     retry_crashed: Annotated[
-        bool, Option("simulate stored shards again in which trials crashed, hung or ran out of memory", False)
+        bool, Option("simulate the stored shards again in which trials crashed, hung or ran out of memory", False)
     ]
 
 
@@ -128,7 +128,7 @@ class MetricsOptions(TypedDict, total=False):
     metrics: Annotated[
         Sequence[str],
         Option(
-            "print this metric, or `all`; may be repeated; default: those of success and requirements, else all",
+            "print this metric, or `all`; may be repeated; default: the metrics of success and requirements, else all",
             (),
             metavar="NAME|all",
         ),
@@ -224,7 +224,7 @@ PREPARE = Verb(
 SHARD = Verb(
     "shard",
     "simulate some shards of a prepared campaign, or of an unfinished batch",
-    (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
+    (FOLDER, Argument("numbers", "K", "numbers of shards, from 0 on; A-B is a range", many=True)),
     options=ShardOptions,
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts": "a folder to share",
@@ -241,7 +241,7 @@ MERGE = Verb(
     function="shard.merge",
     examples={
         "perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared": "a folder to share",
-        "perilune shard shared 0-1": "all of its shards, on one machine or another",
+        "perilune shard shared 0-1": "all of its shards, on any machines",
         "perilune merge shared --report merged.html": "the same files as batch writes",
     },
     not_met=OF_CAMPAIGN,
@@ -251,7 +251,7 @@ REPLAY = Verb(
     "simulate a trial of a campaign again, with all signals",
     (
         Argument("source", "SOURCE", "the folder of a campaign; or a system, with --campaign", completer="systems"),
-        Argument("trial", "TRIAL", "its number, the first is 0", read=int),
+        Argument("trial", "TRIAL", "number of the trial; the first is 0", read=int),
     ),
     options=ReplayOptions,
     files=FlightFiles,
@@ -261,13 +261,13 @@ REPLAY = Verb(
         "perilune replay lunar_terminal_guidance 7 --campaign paper --compare guidance=astar_guidance "
         "--output replay.csv": "a trial of a campaign that is not stored",
     },
-    not_met="as for run; or the trial is no success, or differs from the stored one",
+    not_met="as for run, or the trial is not a success or differs from the stored trial",
 )
 
 COMPARE = Verb(
     "compare",
     "compare the variants of one or several stored campaigns on the same trials",
-    (Argument("results", "RESULT", "a folder that batch wrote to its output", many=True),),
+    (Argument("results", "RESULT", "an output folder of batch", many=True),),
     options=CompareOptions,
     files=ReportFiles,
     examples={
@@ -278,11 +278,11 @@ COMPARE = Verb(
 SHOW = Verb(
     "show",
     "explore stored campaigns of any size in a browser",
-    (Argument("folders", "FOLDER", "a folder that batch wrote to its output", many=True),),
+    (Argument("folders", "FOLDER", "an output folder of batch", many=True),),
     options=ShowOptions,
     files=NoOptions,
     examples={
         "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results": "what is explored",
-        "perilune show results": "prints an address of this machine to open; Ctrl-C ends",
+        "perilune show results": "prints a local address to open; Ctrl-C ends the server",
     },
 )

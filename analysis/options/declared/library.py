@@ -13,11 +13,11 @@ from ..system import AssemblyOptions, ReportFiles, SystemKeywords, TrustOptions
 PATHS = Argument(
     "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
 )
-NAME = Argument("name", "NAME", "small letters, digits and underscores")
+NAME = Argument("name", "NAME", "lower-case letters, digits and underscores")
 SLOT = Argument(
     "slot",
     "SLOT",
-    "the slot that it fits into, one of `perilune describe SLOT`; default: a plain block",
+    "slot for which to write the block, shown by `perilune describe SLOT`; default: a block without a slot",
     "block_slots",
     optional=True,
     is_option=True,
@@ -25,7 +25,7 @@ SLOT = Argument(
 EXPORTED = Argument(
     "name",
     "SYSTEM|FMU|BLOCK|FILE.py",
-    "a system or its folder, a block's name (of a .py file in this folder, too), or a file with blocks",
+    "a system or its folder, a block of the library or of a .py file in this folder, or a file with blocks",
     "systems_and_fmus",
 )
 
@@ -36,15 +36,15 @@ LIST = Verb(
         Argument(
             "what",
             "KIND|WORD",
-            "systems, campaigns, laws, searches or fmus; else text in names and descriptions",
+            "systems, campaigns, laws, searches or fmus; any other word is searched in names and descriptions",
             optional=True,
         ),
     ),
     function="inventory.inventory",
     examples={
-        "perilune list": "names to give to the other verbs",
-        "perilune list campaigns": "those of each system",
-        "perilune list kalman": "what has this in its name or description",
+        "perilune list": "names that the other verbs accept",
+        "perilune list campaigns": "the campaigns of each system",
+        "perilune list kalman": "entries with this word in name or description",
     },
 )
 
@@ -55,7 +55,7 @@ class DescribeOptions(SystemKeywords, total=False):
     campaign: Annotated[
         str | None,
         Option(
-            "of a system: a campaign with all that it extends, each value with its file and line",
+            "of a system: show a campaign and the files that it extends, with file and line of each value",
             metavar="NAME",
             completer="campaigns",
         ),
@@ -67,7 +67,7 @@ DESCRIBE = Verb(
     "describe a system, an FMU or a slot: connectors, parameters with their values, compatible FMUs",
     (
         Argument("what", "SYSTEM|FMU|SLOT", "a system, an FMU by name or file, or a slot", "systems_and_fmus"),
-        Argument("component", "COMPONENT", "of a system: one component with all its variables", optional=True),
+        Argument("component", "COMPONENT", "of a system: show one component with all its variables", optional=True),
     ),
     options=DescribeOptions,
     files=ReportFiles,
@@ -104,13 +104,13 @@ class VerifyOptions(TrustOptions, total=False):
     tolerance: Annotated[
         float | None,
         Option(
-            "signals without a declared tolerance may differ by this fraction of their largest magnitude; default: 0, "
-            "the same bits, of Perilune's files, 1e-6 of others'",
+            "signals without a declared tolerance may differ by this fraction of their largest magnitude; "
+            "default: 0 (the same bits) for Perilune's files, 1e-6 for other files",
             metavar="R",
             minimum=0.0,
         ),
     ]
-    flavour: Annotated[Build | None, Option("which build of an FMU that is given by name")]
+    flavour: Annotated[Build | None, Option("build to use of an FMU given by name")]
     timeout: Annotated[float | None, Option("wall-clock limit of each simulation", metavar="T", unit="s")]
 
 
@@ -136,8 +136,8 @@ class DiffOptions(TypedDict, total=False):
     tolerance: Annotated[
         float | None,
         Option(
-            "a signal may differ by this fraction of its largest magnitude; more, or a missing signal, is a problem; "
-            f"without it signals up to {LISTING:g} are summarised",
+            "a signal may differ by this fraction of its largest magnitude; a larger difference or a missing "
+            "signal is a problem; without it, signals that differ by up to {LISTING:g} are summarised",
             metavar="R",
         ),
     ]
@@ -147,7 +147,7 @@ DIFF = Verb(
     "diff",
     "compare two runs, signal by signal",
     (
-        Argument("first", "FIRST", "a .parquet or .csv that `run --output` wrote, or another tool's"),
+        Argument("first", "FIRST", "a .parquet or .csv written by `run --output` or by another tool"),
         Argument("second", "SECOND", "another one"),
     ),
     options=DiffOptions,
@@ -157,7 +157,7 @@ DIFF = Verb(
         "perilune run lunar_terminal_guidance --use guidance=astar_guidance --output astar.parquet": "with what",
         "perilune diff analytic.parquet astar.parquet --report diff.html": "both, and their differences",
     },
-    not_met="a signal differs by more than --tolerance, or with it only one run has the signal",
+    not_met="a signal differs by more than --tolerance or, if this is given, is missing from one run",
 )
 
 
@@ -201,7 +201,7 @@ class ComposeOptions(TypedDict, total=False):
     output: Annotated[
         FilePath | None,
         Option(
-            "of a system: write its file to F.toml, with all files it refers to; default: print it",
+            "of a system: write its system.toml to F.toml, with all files that it refers to; default: print it",
             metavar="F.toml",
             suffixes=(".toml",),
         ),
@@ -210,7 +210,7 @@ class ComposeOptions(TypedDict, total=False):
 
 COMPOSE = Verb(
     "compose",
-    "write the SSD of a system from a short file, or the short file of a system",
+    "write the SSD of a system from its system.toml, or a system.toml from a system",
     (Argument("what", "FILE.toml|SYSTEM", "a system.toml, or a system or its folder", "systems_and_files"),),
     options=ComposeOptions,
     examples={
@@ -239,13 +239,14 @@ class ExportOptions(AssemblyOptions, total=False):
     as_fmu: Annotated[
         bool,
         Option(
-            "of a system: one FMU of FMI 2.0 for co-simulation, with its components' C compiled into one library", False
+            "of a system: write one FMU of FMI 2.0 for co-simulation, with the C of its components in one library",
+            False,
         ),
     ]
     slots: Annotated[
         Mapping[str, str],
         Option(
-            "with --as-fmu: FMUs for a component, of which the parameter SLOT.use chooses one",
+            "with --as-fmu: candidates for a component; the parameter SLOT.use chooses one",
             EMPTY,
             metavar="SLOT=FMU,FMU...",
             flag="slot",
@@ -255,7 +256,8 @@ class ExportOptions(AssemblyOptions, total=False):
     expose: Annotated[
         Sequence[str],
         Option(
-            "with --as-fmu: a signal of a component as a local variable; the name of a vector is all its elements",
+            "with --as-fmu: add a signal of a component as a local variable; the name of a vector adds all its "
+            "elements",
             (),
             metavar="COMPONENT.VARIABLE",
         ),
@@ -263,7 +265,7 @@ class ExportOptions(AssemblyOptions, total=False):
     faults: Annotated[
         Sequence[str],
         Option(
-            "with --as-fmu: inputs for an override, a bias or a freeze of a connector or a tunable parameter",
+            "with --as-fmu: add inputs for an override, a bias or a freeze of a connector or a tunable parameter",
             (),
             metavar="COMPONENT.NAME",
         ),
@@ -294,7 +296,7 @@ class ExportOptions(AssemblyOptions, total=False):
     studies: Annotated[
         Sequence[str],
         Option(
-            "of a system: put the report of a campaign, or of `stability`, into it as evidence; `all` of them",
+            "of a system: include the report of a campaign or of `stability` as evidence; `all` includes every report",
             (),
             metavar="CAMPAIGN",
             flag="study",
@@ -303,7 +305,7 @@ class ExportOptions(AssemblyOptions, total=False):
     ]
     output: Annotated[
         FilePath | None,
-        Option("write to F; default: NAME.fmu or NAME.ssp here, of FILE.py in build/fmus", metavar="F"),
+        Option("write to F; default: NAME.fmu or NAME.ssp here, for FILE.py in build/fmus", metavar="F"),
     ]
 
 
@@ -319,6 +321,6 @@ EXPORT = Verb(
         "--output landing.ssp": "a system with its FMUs inside",
         "perilune export lunar_terminal_guidance --ssp 2": "the same as SSP 2.0",
         "perilune export lunar_terminal_guidance --as-fmu --slot guidance=analytic_guidance,astar_guidance "
-        "--expose plant.position": "the system as one FMU, with two guidances",
+        "--expose plant.position": "the system as one FMU, with a choice of two guidance laws",
     },
 )

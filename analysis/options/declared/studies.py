@@ -115,22 +115,29 @@ class WorstOptions(CampaignOptions, ConditionOptions, RequireOptions, total=Fals
     ]
     loop: Annotated[
         str | None,
-        Option("minimise a stability margin of this loop instead; or of COMPONENT.CONNECTOR to cut", metavar="NAME"),
+        Option(
+            "instead minimise a stability margin of this loop, or of a loop cut at COMPONENT.CONNECTOR", metavar="NAME"
+        ),
     ]
-    margin: Annotated[MarginKind | None, Option("which margin; default: disk")]
-    point: Annotated[str | None, Option("operating point of the loop; default: its only one", metavar="NAME")]
+    margin: Annotated[MarginKind | None, Option("margin to minimise; default: disk")]
+    point: Annotated[str | None, Option("operating point of the loop; default: the only one", metavar="NAME")]
     at: Annotated[float | None, Option("time of the operating point of a cut, s; default: 0", unit="s", metavar="T")]
     sigmas: Annotated[float, Option("search box of normal inputs, in standard deviations", 3.0, metavar="K", above=0.0)]
-    flights: Annotated[int | None, Option("number of simulations; default: 2000, for a margin 500", metavar="N")]
+    flights: Annotated[int | None, Option("number of simulations; default: 2000, or 500 for a margin", metavar="N")]
     realisations: Annotated[
         int | None,
         Option(
-            "noise realisations per point; default: 5, for a margin 1; the worst point gets 10 K new ones", metavar="K"
+            "noise realisations per point; default: 5, or 1 for a margin; the worst point is repeated with 10 K "
+            "new realisations",
+            metavar="K",
         ),
     ]
     quantile: Annotated[
         float | None,
-        Option("of the realisations, best to worst: 0.5 the median, 1 the worst; default: 0.5", metavar="Q"),
+        Option(
+            "quantile of the realisations, from best to worst: 0.5 is the median, 1 the worst; default: 0.5",
+            metavar="Q",
+        ),
     ]
 
 
@@ -146,7 +153,7 @@ RARE = Verb(
     files=ReportFiles,
     examples={
         f"perilune rare {PAPER} --failure 'flight_time > 220' --samples 500 "
-        "--output long_flights": "the probability of a long flight, from few simulations a level",
+        "--output long_flights": "the probability of a long flight, from few simulations per level",
         f"perilune batch {PAPER} "
         "--draws long_flights/failures.parquet": "the most probable long flights, simulated again",
     },
@@ -170,7 +177,13 @@ SENSITIVITY = Verb(
     (
         SYSTEM,
         CAMPAIGN,
-        Argument("base", "N", "N (inputs + 2) simulations, + 3 with noise; a power of two", is_option=True, read=int),
+        Argument(
+            "base",
+            "N",
+            "base sample size, a power of two: N (inputs + 2) simulations, with noise N (inputs + 3)",
+            is_option=True,
+            read=int,
+        ),
     ),
     options=SensitivityOptions,
     files=ReportFiles,

@@ -66,11 +66,14 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
     """
     frequency, value = np.asarray(frequency, dtype=float), np.asarray(value, dtype=complex)
     if frequency.ndim != 1 or frequency.shape != value.shape or len(frequency) < 4:
-        raise ValueError(f"{frequency.shape} frequencies with {value.shape} values; at least 4 of each, one list each")
+        raise ValueError(
+            f"at least 4 frequencies and as many values are needed, not arrays of shapes {frequency.shape} and "
+            f"{value.shape}"
+        )
     if frequency[0] <= 0.0 or not np.all(np.diff(frequency) > 0.0) or frequency[-1] * sample_period >= np.pi:
         raise ValueError("the lines' frequencies must increase and lie between 0 and the Nyquist frequency")
     if not np.all(np.isfinite(value)) or np.any(value == 0.0):
-        raise ValueError("a line without a finite gain above zero cannot be interpolated")
+        raise ValueError("the gain at a line is zero or not finite and cannot be interpolated")
 
     def tustin(angular: np.ndarray) -> np.ndarray:
         return np.log(np.tan(0.5 * sample_period * angular))
@@ -82,7 +85,9 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
     def response(angular: np.ndarray) -> np.ndarray:
         angular = np.asarray(angular, dtype=float)
         if np.any(angular < lowest) or np.any(angular > highest):
-            raise ValueError(f"requested outside of the measured lines, {frequency[0]:g} to {frequency[-1]:g} rad/s")
+            raise ValueError(
+                f"a requested frequency is outside of the measured range, {frequency[0]:g} to {frequency[-1]:g} rad/s"
+            )
         return np.exp(gain(tustin(angular)) + 1j * phase(np.log(angular)))
 
     return response
@@ -91,7 +96,7 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
 def base_grid(low: float, high: float, include: Iterable[float] = ()) -> np.ndarray:
     """Return frequencies (rad/s) from ``low`` to ``high``: logarithmic and even grids, and all of ``include``."""
     if not 0.0 < low < high:
-        raise ValueError(f"frequencies from {low:g} to {high:g} rad/s; needs 0 < low < high")
+        raise ValueError(f"low = {low:g} rad/s and high = {high:g} rad/s are not in the order 0 < low < high")
     logarithmic = np.geomspace(low, high, max(2, round(_PER_DECADE * np.log10(high / low)) + 1))
     grid = np.concatenate([logarithmic, np.linspace(low, high, _UNIFORM), np.asarray([*include], dtype=float)])
     grid = np.unique(grid[(grid >= low) & (grid <= high)])

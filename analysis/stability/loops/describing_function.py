@@ -117,7 +117,7 @@ def _pulse_width(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
 def _pulse_width_check(parameters: Parameters) -> str:
     full = parameters["level"] / parameters["gain"]
     if parameters["dead_zone"] > full:
-        return f"dead_zone = {parameters['dead_zone']!r} is above level/gain = {full!r}, the input at full width"
+        return f"dead_zone = {parameters['dead_zone']!r} exceeds level/gain = {full!r}, the input at full pulse width"
     return ""
 
 
@@ -138,8 +138,8 @@ ELEMENTS: dict[str, ElementKind] = {
         positive=("level",),
         kinks=lambda parameters: _thresholds(parameters["dead_zone"] + parameters["hysteresis"]),
         output=lambda parameters: parameters["level"],
-        note="on where the input leaves +-(dead_zone + hysteresis), off where it is back within "
-        "+-(dead_zone - hysteresis); without a dead zone it changes over at +-hysteresis",
+        note="on where the input leaves +-(dead_zone + hysteresis), off where it returns to within +-(dead_zone "
+        "- hysteresis); without a dead zone it switches at +-hysteresis",
     ),
     "dead zone": ElementKind(
         gain=lambda amplitude, parameters: 1.0 - _saturation_function(parameters["dead_zone"], amplitude) + 0j,
@@ -147,7 +147,7 @@ ELEMENTS: dict[str, ElementKind] = {
         positive=("dead_zone",),
         kinks=lambda parameters: _thresholds(parameters["dead_zone"]),
         farthest=lambda parameters: _DEAD_ZONES * parameters["dead_zone"],
-        note="0 within +-dead_zone, outside the input less the dead zone (slope 1)",
+        note="0 within +-dead_zone, outside it the input minus the dead zone (slope 1)",
     ),
     "saturation": ElementKind(
         gain=lambda amplitude, parameters: _saturation_function(parameters["limit"], amplitude) + 0j,
@@ -155,7 +155,7 @@ ELEMENTS: dict[str, ElementKind] = {
         positive=("limit",),
         kinks=lambda parameters: _thresholds(parameters["limit"]),
         output=lambda parameters: parameters["limit"],
-        note="the input within +-limit (slope 1), else the limit",
+        note="the input within +-limit (slope 1), outside it the limit",
     ),
     "quantiser": ElementKind(
         gain=_quantiser,
@@ -171,8 +171,9 @@ ELEMENTS: dict[str, ElementKind] = {
         positive=("least_pulse",),
         kinks=lambda parameters: (np.arange(_PULSE_STEPS) + 0.5) * parameters["least_pulse"],
         farthest=lambda parameters: _PULSE_STEPS * parameters["least_pulse"],
-        note="pulses no shorter than a least one, what is not fired carried over: the amplitude is that of the demand "
-        "integrated over time, and what is fired is a staircase in steps of least_pulse, one behind at the most",
+        note="pulses of at least least_pulse, with the unfired demand carried over: the amplitude is the "
+        "amplitude of the demand integrated over time, and the integral of the pulses is a staircase in steps of "
+        "least_pulse, at most one step behind",
         of_integral=True,
     ),
     "pulse width": ElementKind(
@@ -184,9 +185,9 @@ ELEMENTS: dict[str, ElementKind] = {
         check=_pulse_width_check,
         kinks=lambda parameters: _thresholds(parameters["dead_zone"], parameters["level"] / parameters["gain"]),
         output=lambda parameters: parameters["level"],
-        note="its mean over a modulation period, quasi-static: the signal is slow against the modulation period, "
-        "whose ripple the loop filters out and whose delay (that of a hold) is counted in the linear rest; the mean "
-        "is gain times the input up to level, and 0 below dead_zone = level (minimum on-time)/(gain period)",
+        note="quasi-static mean over a modulation period: the signal is slow compared with the period, the loop "
+        "filters out the ripple, and the linear part contains the delay (of a hold); the mean is gain times the "
+        "input up to level, and 0 below dead_zone = level (minimum on-time)/(gain period)",
     ),
 }
 
@@ -194,7 +195,7 @@ ELEMENTS: dict[str, ElementKind] = {
 def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
     """Return the parameters of an element as floats, including defaults. Raises ValueError with one line."""
     if kind not in ELEMENTS:
-        raise ValueError(f"{kind!r} is not a kind of element; there are {', '.join(ELEMENTS)}")
+        raise ValueError(f"{kind!r} is not a kind of element; choose one of {', '.join(ELEMENTS)}")
     element = ELEMENTS[kind]
     known = {**element.required, **element.optional}
     takes = ", ".join(
@@ -230,7 +231,7 @@ def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters
     complete = complete_parameters(kind, parameters)
     values = np.asarray(amplitude, dtype=float)
     if not np.all((values > 0.0) & np.isfinite(values)):
-        raise ValueError("amplitudes are finite and above 0")
+        raise ValueError("amplitudes must be finite and positive")
     return ELEMENTS[kind].gain(values.ravel(), complete).astype(complex).reshape(values.shape)
 
 

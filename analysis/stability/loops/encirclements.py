@@ -55,9 +55,9 @@ def encirclements(
     count = (2.0 * turned - np.pi * (integrators + 2 * len(undamped))) / (2.0 * np.pi)
     if abs(count - round(count)) > _NOT_A_COUNT:
         raise ValueError(
-            f"between {low:g} and {high:g} rad/s 1 + L turns {count:.3f} times about 0, not a whole number: "
-            f"an open-loop pole is slower than {low:g} rad/s or next to the unit circle; "
-            "start lower, end at the Nyquist frequency and name the poles on the unit circle"
+            f"the number of encirclements is not whole: between {low:g} and {high:g} rad/s 1 + L turns "
+            f"{count:.3f} times about 0, since an open-loop pole is slower than {low:g} rad/s or close to the "
+            "unit circle; start lower, end at the Nyquist frequency and name the poles on the unit circle"
         )
     return round(count)
 
@@ -70,7 +70,8 @@ def _turn(difference: Response, low: float, high: float, include: list[float]) -
     if abs(steps[worst]) > _LARGEST_STEP:
         raise ValueError(
             f"the phase of 1 + L jumps by {abs(steps[worst]):.2f} rad at {curve.frequency[worst]:g} rad/s: "
-            "a pole on the unit circle, of the open loop (to be named) or of the closed one (which is then marginal)"
+            "a pole of the open loop is on the unit circle and must be named, or a pole of the closed loop, "
+            "which is then marginally stable"
         )
     return float(np.sum(steps))
 
@@ -82,14 +83,16 @@ def _poles_at_one(response: Response, difference: Response, low: float, declared
     number = round(-slope) if declared is None else declared
     if abs(slope + number) > _NOT_A_SLOPE or number < 0:
         raise ValueError(
-            f"at {low:g} rad/s the gain of 1 + L has the slope {slope:.2f}, which is not that of "
-            f"{'a number of' if declared is None else declared} poles at z = 1; start lower"
+            f"the gain of 1 + L at {low:g} rad/s has the slope {slope:.2f}, but poles at z = 1 give "
+            f"{'a whole number, at most 0' if declared is None else -declared}; start lower"
         )
     if declared is None and number == 0:
         size = np.asarray(response(pair))
         # the gain of L still rises towards low frequency but is negligible in 1 + L
         if _slope(size if size.ndim == 1 else np.linalg.norm(size, axis=(1, 2))) < -1.0 + _NOT_A_SLOPE:
-            raise ValueError(f"at {low:g} rad/s the gain of L is below 1 and still rises downwards; start lower")
+            raise ValueError(
+                f"the gain of L at {low:g} rad/s is below 1 but still rises towards lower frequencies; start lower"
+            )
     return number
 
 

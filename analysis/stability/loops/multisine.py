@@ -104,7 +104,7 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
     record = np.asarray(record, dtype=float)
     periods, remainder = divmod(len(record), samples)
     if remainder or not periods:
-        raise ValueError(f"a record of {len(record)} samples is not a whole number of periods of {samples}")
+        raise ValueError(f"a record of {len(record)} samples is not a whole number of periods of {samples} samples")
     mean = record.reshape(periods, samples, *record.shape[1:]).mean(axis=0)
     return 2.0 / samples * np.fft.rfft(mean, axis=0)[np.asarray(lines)]
 
@@ -121,5 +121,5 @@ def fraction_unexcited(record: np.ndarray, signal: Multisine) -> float:
     above = np.searchsorted(signal.lines, signal.unexcited)
     below, above = np.maximum(above - 1, 0), np.minimum(above, len(size) - 1)
     if not np.all(size > 0.0):
-        raise ValueError("an excited line has no response at all: nothing to compare with")
+        raise ValueError("an excited line has no response to compare with")
     return float(np.max(stray / np.maximum(size[below], size[above]), initial=0.0))

@@ -68,7 +68,7 @@ def find_oscillation(
     """
     time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if time.ndim != 1 or time.shape != values.shape or len(time) < 16:
-        raise ValueError("a record needs equally many times and values, at least 16")
+        raise ValueError("a record needs at least 16 times and as many values")
     if not (np.all(np.isfinite(time)) and np.all(np.isfinite(values))):
         raise ValueError("the record has values that are not finite")
     steps = np.diff(time)

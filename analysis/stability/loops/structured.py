@@ -83,7 +83,7 @@ def _several(matrix: np.ndarray) -> np.ndarray:
         active = active[~(settled & last)]
         if not active.size:
             return bounds
-    raise ValueError(f"the structured singular value of {active.size} matrices is not found in {_MOST} steps")
+    raise ValueError(f"the structured singular value of {active.size} matrices was not found in {_MOST} steps")
 
 
 def _balance(squares: np.ndarray) -> np.ndarray:
@@ -126,7 +126,7 @@ def _descend(
             return trial
         length[uphill] *= 0.4
         if np.min(length) < _SHORTEST:
-            raise ValueError("the structured singular value is not found: its bound does not fall")
+            raise ValueError("the structured singular value was not found: its upper bound does not decrease")
 
 
 def _expansion(

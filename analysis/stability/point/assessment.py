@@ -75,7 +75,7 @@ def assess(
         low = max(LOWEST * high, LOWER * low)
     if unstable_open is not None and (left := slower(low)) and "encirclements" not in notes:
         notes["encirclements"] = (
-            f"{left} unstable open-loop poles are slower than {low:.2g} rad/s: taken as integrators"
+            f"{left} unstable open-loop poles are slower than {low:.2g} rad/s and treated as integrators"
         )
     curve = dense(response, low, high, include=include)
     return Assessment(curve, crossings, robust(response, low, high, include=include), notes)

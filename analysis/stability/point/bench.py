@@ -129,8 +129,10 @@ class Bench:
                 ratio = Fraction(value / step).limit_denominator(1000)
                 period = math.lcm(period, max(1, ratio.numerator))
         if period > LONGEST:
-            problem = f"the sample periods have a common multiple only after {period * step:g} s"
-            raise InputError(self.prepared.network.file, SAMPLE_PERIOD, problem, "give periods with a common multiple")
+            problem = f"the least common multiple of the sample periods, {period * step:g} s, is too long"
+            raise InputError(
+                self.prepared.network.file, SAMPLE_PERIOD, problem, "give periods with a shorter common multiple"
+            )
         return period
 
     def _origin(self) -> int:

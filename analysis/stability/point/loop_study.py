@@ -146,7 +146,10 @@ class LoopStudy:
             assert self.model is not None
             names = ", ".join(self.model.facts.doubtful)
             reason = self.notes.get("frequency-response test", "it is not measured")
-            raise StudyError(f"its derivatives have no plateau ({names}), and there is no measurement: {reason}")
+            raise StudyError(
+                f"its finite-difference derivatives depend on the difference step ({names}), and "
+                f"there is no measurement: {reason}"
+            )
         overlooked = self._model_silent and self.measured is not None and not self._measurement_silent
         if (self._doubtful or self.model is None or overlooked) and self._bent:
             assert self.injector is not None
@@ -154,7 +157,8 @@ class LoopStudy:
             assert amplitudes is not None
             points, frequency = amplitudes
             sizes = "; ".join(
-                f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg with {item.amplitude:g}"
+                f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg at amplitude "
+                f"{item.amplitude:g}"
                 for item in points
             )
             raise StudyError(f"not applicable, since the loop is not linear: at {frequency:.3g} rad/s L is {sizes}")
@@ -206,7 +210,11 @@ class LoopStudy:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
         if self.model is not None:
             names = ", ".join(self.model.facts.doubtful)
-            why = f"its derivatives have no plateau ({names})" if self._doubtful else "it finds no returning signal"
+            why = (
+                f"its finite-difference derivatives depend on the difference step ({names})"
+                if self._doubtful
+                else "it finds no returning signal"
+            )
             self.notes["linearisation"] = f"{why}, so margins are those of the frequency-response test"
         return self._assess_measured(self.refined or self.measured.curve)
 

@@ -188,12 +188,17 @@ def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
     reasons = []
     if a.plateau > DOUBTFUL:
         names = ", ".join(a.doubtful)
-        reasons.append(f"the derivatives of the linearisation have no plateau ({a.plateau:.2g}; {names})")
+        reasons.append(f"the derivatives of the linearisation depend on the difference step ({a.plateau:.2g}; {names})")
     if b.half_amplitude_change > NOT_LINEAR:
         reasons.append(f"L changes by {b.half_amplitude_change:.2g} when the amplitude is halved")
     if b.unexcited > NOT_LINEAR:
-        reasons.append(f"the response at unexcited lines is {b.unexcited:.2g} of that at excited lines")
+        reasons.append(f"the response at unexcited lines is {b.unexcited:.2g} times the response at excited lines")
     if a.periodicity > NOT_LINEAR:
-        reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} returns at other frequencies)")
+        reasons.append(
+            f"the loop is periodically time-varying (a fraction {a.periodicity:.2g} of the signal "
+            "returns at other frequencies)"
+        )
     size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
-    return f"{size}: " + ("; ".join(reasons) or "neither method finds a reason; the operating point does not last")
+    return f"{size}: " + (
+        "; ".join(reasons) or "neither method shows a reason, so the operating point may change during the measurement"
+    )

@@ -103,7 +103,12 @@ def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Ch
         direction = _vector(network, loop.direction, where)
         rates = _vector(network, loop.direction_rate, where) if loop.direction_rate else []
         if len(cut) != 1:
-            raise InputError(network.file, where, f"{loop.cut} is a vector", "give the size of the direction")
+            raise InputError(
+                network.file,
+                where,
+                f"{loop.cut} is a vector, but a loop with a direction is cut at a scalar",
+                "cut the scalar along the direction",
+            )
         whole = replace(base, connectors=(*cut, *direction), rates=tuple(rates), ahead=loop.ahead)
         named = [replace(whole, name=f"{loop.name}.{name}", axis=axis) for axis, name in enumerate(AXES)]
     elif len(cut) == 1:
@@ -113,8 +118,8 @@ def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Ch
     if not returned:
         return named
     if len(returned) != len(named):
-        problem = f"{loop.returned} has {len(returned)} components, the cut has {len(named)}"
-        raise InputError(network.file, where, problem, "name a signal with as many components")
+        problem = f"{loop.returned} has {len(returned)} components, but the cut has {len(named)}"
+        raise InputError(network.file, where, problem, "name a signal with {len(named)} components")
     return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
 
 
@@ -125,7 +130,7 @@ def _period(loop: LoopDeclaration, network: Network, step: float, where: str) ->
     period = round(loop.period / step)
     if period < 1 or abs(period * step - loop.period) > STEP_ROUNDING * loop.period:
         problem = f"period {loop.period:g} s is not a whole number of communication steps of {step:g} s"
-        raise InputError(network.file, where, problem, "give a period or a step that fits")
+        raise InputError(network.file, where, problem, "give a multiple of the step, or a step that divides the period")
     return period
 
 

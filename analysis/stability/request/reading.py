@@ -92,7 +92,9 @@ class _RequestReader(AnnotationReader):
             ("direction", "direction_rate", "ahead", "returned", "period", "amplitude"),
         )
         if ("direction_rate" in values) != ("ahead" in values) or ("ahead" in values and "direction" not in values):
-            raise self.refuse(element, "direction_rate and ahead need each other, and a direction", "give all three")
+            raise self.refuse(
+                element, "direction_rate and ahead must be given together, and with a direction", "give all three"
+            )
         names = tuple(values["points"].split())
         for name in names:
             if name not in points:

@@ -103,7 +103,7 @@ def _select(
     by_name = {loop.name: loop for loop in declared.loops}
     for time in at:
         if not (math.isfinite(time) and time >= description.start_time):
-            remedy = f"give seconds from {description.start_time:g} on"
+            remedy = f"give {description.start_time:g} s or later"
             raise InputError("`at`", f"{time:g}", "not a time of the simulation", remedy)
     if not names and not declared.loops:
         remedy = "name a loop in the SSD, or cut one with `loops` COMPONENT.CONNECTOR `at`"

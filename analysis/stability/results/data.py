@@ -28,15 +28,16 @@ from .responses import StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
 SIGN = (
-    "L is the negative of the loop's transfer function from u, what goes into the loop behind the break point, to "
-    "what returns to it: y = L u = -(what returns). Negative feedback has a positive L, the loop is closed by "
+    "L is the negative of the loop's transfer function from u, the signal into the loop after the break point, "
+    "to r, the signal that returns to this point: y = L u = -r. Negative feedback has a positive L, the loop is "
+    "closed by "
     "u = d - y, the sensitivity is 1/(1 + L), and the critical point is -1."
 )
 MODEL = (
     "x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k] every model_period_s, deviations from the flight at the "
     "operating point. Where samples is 1, L(w) = C (exp(j w model_period_s) I - A)^-1 B + D; otherwise the loop "
-    "changes from sample to sample, and u and y hold its samples over model_period_s, oldest first. Empty: there is no "
-    "linear model that can be trusted, for the reason in note."
+    "is periodically time-varying, and u and y contain its samples over model_period_s, oldest first. The "
+    "matrices are empty if there is no trustworthy linear model; note states the reason."
 )
 COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "imaginary")
 LINEARISED, MEASURED = "linearised", "measured"
@@ -70,11 +71,14 @@ def _results(report: StabilityStudy) -> dict[str, list[dict[str, object]]]:
 
 def _assumption(orders: Orders) -> str:
     """Return a note on FMUs with undeclared dependencies, and on the records of each order."""
-    words = f"Direct dependencies are not declared by {orders.fmus}: stepped with the inputs of the step's start."
+    words = (
+        f"Without declared dependencies of outputs on inputs, {orders.fmus} are stepped with inputs from the "
+        "start of the step."
+    )
     if orders.report is not None:
         direct = ", ".join(orders.direct)
-        words += f" In loops_{DIRECT} and joint_{DIRECT} stepped with the inputs of the step's end: {direct}."
-        words += " verdict in loops is of both orders."
+        words += f" For loops_{DIRECT} and joint_{DIRECT}, {direct} are stepped with inputs from the end of the step."
+        words += " The verdict in loops combines both orders."
     return words
 
 

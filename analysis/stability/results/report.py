@@ -136,7 +136,7 @@ class FailedStudy:
         if self.verdict is MarginVerdict.FAIL:
             return self.reason
         if self.verdict is MarginVerdict.WITHHELD:
-            return f"withheld: {self.reason}, not known in the other order"
+            return f"withheld: {self.reason}; with the other evaluation order the verdict is not known"
         return f"{self.verdict or 'not studied'}: {self.reason}"
 
 

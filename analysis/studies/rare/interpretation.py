@@ -90,7 +90,7 @@ def equivalents(result: RareOutcome) -> list[Equivalent]:
     if result.probability is None:
         return estimates
     for label, trials in (
-        ("Monte Carlo, as many", float(result.flights)),
+        ("Monte Carlo, same number", float(result.flights)),
         ("Monte Carlo, same c.o.v.", result.brute_force or 0.0),
     ):
         if trials >= 1.0:

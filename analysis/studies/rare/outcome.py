@@ -77,7 +77,10 @@ class RareOutcome(StudyResult):
         assert level.renewal_rate is not None
         rate, minimum = short_percent(level.renewal_rate), short_percent(LEAST_ACCEPTED)
         source = "" if level.source is None else f" of {self.noise.sources[level.source]}"
-        return f"levels end at level {place}: {rate} % of the noise moves{source} are accepted, below {minimum} %"
+        return (
+            f"levels end at level {place}, since {rate} % of the noise moves{source} are accepted, fewer than "
+            f"{minimum} %"
+        )
 
     @cached_property
     def failures(self) -> list[FailedFlight]:

@@ -66,7 +66,7 @@ def rare_failure(
         except StalledLevelError as stuck:
             worth, fraction = stuck.args
             simulations = f"{100 * fraction:.0f} % of a level's simulations"
-            problem = f"{simulations} have the same margin, {worth:g}, and none a smaller one"
+            problem = f"{simulations} have the same margin, {worth:g}, and none has a smaller margin"
             where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
             raise InputError(*where, problem, "use a failure condition whose margin varies continuously") from stuck
         units = units_of(space, flights.prepared, flights.facts)

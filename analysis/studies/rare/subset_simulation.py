@@ -113,7 +113,9 @@ def subset_simulation(
     ValueError for fewer than 100 samples, a ``least`` outside (0, 1), or neither draws nor sources.
     """
     if samples < 100 or not 0.0 < least < 1.0 or dimensions + sources < 1:
-        raise ValueError(f"{samples} samples, least {least}, {dimensions} dimensions, {sources} sources")
+        raise ValueError(
+            f"samples = {samples}, least = {least}, dimensions = {dimensions} or sources = {sources} is out of range"
+        )
     sequence = np.random.SeedSequence(seed)
     random = np.random.Generator(np.random.Philox(sequence))
     of_noise = np.random.Generator(np.random.Philox(sequence.spawn(1)[0]))

@@ -60,7 +60,7 @@ def read_realisations(
         raise InputError("`realisations`", str(count), "not a positive number", "give 1 or more")
     fraction = QUANTILE if quantile is None else quantile
     if not 0.0 < fraction <= 1.0:
-        raise InputError("`quantile`", f"{fraction:g}", "not a quantile", "give a number above 0, up to 1")
+        raise InputError("`quantile`", f"{fraction:g}", "not a quantile", "give a number above 0 and at most 1")
     realisations = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, fraction)
     if count is not None and LEAST <= flights < count * LEAST:
         problem = f"{flights} simulations are too few: a search needs {LEAST} points or more"

@@ -105,7 +105,7 @@ def test_pages_that_messages_and_templates_name_are_there():
     ]
     for path in files:
         text = path.read_text(encoding="utf-8")
-        for words in re.findall(r"`perilune docs` (?:says how under|opens the documentation:) ([^\n\"]+)", text):
+        for words in re.findall(r"`perilune docs` (?:describes under|opens the documentation:) ([^\n\"]+)", text):
             named += re.findall(r"\*([^*]+)\*", words) or [words]
         for page in re.findall(r"docs/[\w/]+\.md", text):
             assert (ROOT / page).is_file(), f"{path}: {page}"

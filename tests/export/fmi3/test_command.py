@@ -120,11 +120,11 @@ def test_the_blocks_of_a_file_go_to_a_folder_of_their_own(capsys: pytest.Capture
         ),
         (
             ["library", "--fmi", "3"],
-            "blocks.py: library: needs Python, and Python FMUs are of FMI 2.0; leave out --fmi",
+            "blocks.py: library: needs Python, but Python FMUs are FMI 2.0 FMUs; leave out --fmi",
         ),
         (
             ["library", "--fmi", "3", "--output", "library.fmu"],
-            "blocks.py: Library: needs Python, and Python FMUs are of FMI 2.0; leave out --fmi",
+            "blocks.py: Library: needs Python, but Python FMUs are FMI 2.0 FMUs; leave out --fmi",
         ),
     ],
 )
@@ -142,7 +142,7 @@ def test_without_a_compiler(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
     for name in ("jet_health", "ramp"):
         assert main(["export", name, "--fmi", "3"]) == 2
         element = "jet_health" if name == "jet_health" else "blocks.py"
-        line = f"perilune: export: {element}: no C compiler here; pip install ziglang, or leave out --fmi\n"
+        line = f"perilune: export: {element}: no C compiler was found; pip install ziglang, or leave out --fmi\n"
         assert capsys.readouterr().err == line
     assert f"no C compiler for {OTHER}: pip install ziglang" in refusal(
         ["export", "jet_health", "--fmi", "3", "--platform", OTHER]

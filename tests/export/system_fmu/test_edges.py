@@ -144,7 +144,7 @@ def test_candidates_of_different_steps(make, tiny_folder, tmp_path):
     path = make(component("c", "ramp", RAMP), step=None)
     slots = {"c": [str(tiny_folder / "native" / "ramp.fmu"), str(tmp_path / "fmus" / "native" / "slow.fmu")]}
     problem = re.escape(
-        "slots: c: the candidates' systems differ in times, with steps of 0.1 s, 0.5 s; give step and stop_time"
+        "slots: c: start, step or duration of the simulation depends on the candidate (steps: 0.1 s, 0.5 s); give step"
     )
     with pytest.raises(InputError, match=problem):
         build_one(tmp_path / "one.fmu", path, slots, exposed=["c.y"])
@@ -255,7 +255,7 @@ def test_what_is_refused(make, tmp_path, tiny_folder):
 
     texts = make(component("r", "ramp", RAMP), declared="input s String")
     assert "s (line" in refusal(texts)
-    assert "of type String, which is not supported; export the system as .ssp" in refusal(texts)
+    assert "its type, String, is not supported; export the system as .ssp" in refusal(texts)
     gain = make(component("g", "gain", GAIN))
     assert "expose: g.u: a parameter, which is always a parameter of the FMU" in refusal(gain, exposed=["g.u"])
     whole = "input n Integer; input b Boolean; output m Integer; output c Boolean"

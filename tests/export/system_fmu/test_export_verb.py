@@ -91,10 +91,10 @@ WRONG = {
         "--as-fmu",
         "--fmi",
         "3",
-    ): "--fmi: 3: a system as one FMU is an FMI 2.0 FMU made of native FMUs; leave out --fmi",
-    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system as one FMU is an FMI 2.0 FMU",
-    ("--as-fmu", "--ssp", "2"): "--ssp: 2: a system as one FMU",
-    ("--as-fmu", "--study", "all"): "--study: all: a system as one FMU cannot contain reports",
+    ): "--fmi: 3: a system exported as one FMU is an FMI 2.0 FMU compiled from native FMUs; leave out --fmi",
+    ("--as-fmu", "--flavour", "python"): "--flavour: python: a system exported as one FMU is an FMI 2.0 FMU",
+    ("--as-fmu", "--ssp", "2"): "--ssp: 2: a system exported as one FMU",
+    ("--as-fmu", "--study", "all"): "--study: all: a system exported as one FMU cannot contain reports",
     ("--as-fmu", "--output", "x.ssp"): "--output: x.ssp",
     ("--as-fmu", "--expose", "plant.altitud"): "--expose: plant.altitud: no such variable",
     (
@@ -107,12 +107,16 @@ WRONG = {
         "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start by --set"
     ),
     ("--as-fmu", "--slot", "pilot=analytic_guidance"): "--slot: pilot: no such component; use one of",
-    ("--as-fmu", "--slot", "guidance=analytic_guidance,"): "--slot: guidance=analytic_guidance,: an empty name",
+    (
+        "--as-fmu",
+        "--slot",
+        "guidance=analytic_guidance,",
+    ): "--slot: guidance=analytic_guidance,: a candidate has an empty name",
     (
         "--as-fmu",
         "--slot",
         "guidance=astar_guidance,astar_guidance",
-    ): "two candidates have one name; give each candidate once",
+    ): "two candidates have the same name; give each candidate once",
     ("--as-fmu", "--slot", "guidance=astar"): "--slot: guidance=astar: no such FMU is built",
     ("--as-fmu", "--slot", SLOTS, "--use", "guidance=astar_robust_guidance"): "which is not among the candidates",
 }

@@ -202,7 +202,7 @@ def test_amplitudes_are_positive(amplitude):
 @pytest.mark.parametrize(
     ("kind", "parameters", "text"),
     [
-        ("rely", {}, "'rely' is not a kind of element; there are relay, "),
+        ("rely", {}, "'rely' is not a kind of element; choose one of relay, "),
         ("relay", {}, r"relay lacks its parameter 'level'; it takes level \(unit of the output\), dead_zone"),
         ("relay", {"level": 1.0, "deadzone": 1.0}, "relay has no parameter 'deadzone'"),
         ("relay", {"level": 0.0}, "level = 0.0 is not above 0"),
@@ -210,7 +210,7 @@ def test_amplitudes_are_positive(amplitude):
         ("quantiser", {"step": math.nan}, "step = nan is not a finite number"),
         ("quantiser", {"step": "1"}, "step = '1' is not a finite number"),
         ("quantiser", {"step": True}, "step = True is not a finite number"),
-        ("pulse width", {"level": 1.0, "dead_zone": 2.0}, "dead_zone = 2.0 is above level/gain = 1.0"),
+        ("pulse width", {"level": 1.0, "dead_zone": 2.0}, "dead_zone = 2.0 exceeds level/gain = 1.0"),
     ],
 )
 def test_wrong_parameters(kind, parameters, text):

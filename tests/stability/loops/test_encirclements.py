@@ -82,7 +82,7 @@ def test_undamped_poles_elsewhere_on_the_circle_are_named(gain: float) -> None:
     assert count(system, poles_at_one=0, undamped=[frequency]) == -outside(system)
     twice = system * held(S / (S**2 + frequency**2), period)
     assert count(twice, poles_at_one=0, undamped=[frequency, frequency]) == -outside(twice)
-    with pytest.raises(ValueError, match="pole on the unit circle"):
+    with pytest.raises(ValueError, match="pole of the open loop is on the unit circle"):
         count(system)
 
 

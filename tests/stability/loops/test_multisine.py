@@ -88,5 +88,5 @@ def test_refusals() -> None:
         multisine(64, 0.0, 16, 0)
     with pytest.raises(ValueError, match="whole number of periods"):
         line_spectrum(np.zeros(65), 64, np.array([1]))
-    with pytest.raises(ValueError, match="no response at all"):
+    with pytest.raises(ValueError, match="no response to compare with"):
         fraction_unexcited(np.zeros(64), multisine(64, 1.0, 16, 0))

@@ -143,7 +143,7 @@ def test_only_the_last_part_counts():
 @pytest.mark.parametrize(
     ("time", "values", "text"),
     [
-        (TIME, SINE[:-1], "equally many"),
+        (TIME, SINE[:-1], "as many values"),
         (TIME[:10], SINE[:10], "at least 16"),
         (TIME**1.01, SINE, "not sampled uniformly"),
         (TIME[::-1], SINE, "not sampled uniformly"),
