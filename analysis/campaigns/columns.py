@@ -12,7 +12,7 @@ from .draws.supplied import stream_component
 
 
 class Column(NamedTuple):
-    """Column of trials/. ``unit`` is "1" for dimensionless columns, None if the results state no unit."""
+    """Column in a table of trials. ``unit`` is "1" for a dimensionless column, None if the results state no unit."""
 
     unit: str | None
     meaning: str
@@ -34,7 +34,7 @@ FAULT = {
 
 
 def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
-    """Return unit and meaning of a column, according to its campaign's ``provenance``."""
+    """Return unit and meaning of a column, from its campaign's ``provenance``."""
     if name in FLIGHT:
         return FLIGHT[name]
     if name == "success":
@@ -59,20 +59,20 @@ def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
 
 
 def describe_metric(fact: Mapping[str, Any]) -> str:
-    """Return a metric's description; if it has none and is an element with a named axis: "final of velocity up"."""
+    """Return a metric's description or, for an element with a named axis, a text such as "final of velocity up"."""
     if fact["description"] or "axis" not in fact:
         return str(fact["description"])
     return f"{fact['reduction']} of {fact['expression'].rpartition('[')[0]} {fact['axis']}"
 
 
 def describe_metrics(metrics: Iterable[Metric]) -> Describe:
-    """Return a function that returns the unit and meaning of a column; both are empty except for these metrics."""
+    """Return a function that returns unit and meaning of a column; both are empty except for these metrics."""
     known = {f"metric.{each.name}": Column(each.unit, each.description) for each in metrics}
     return lambda name: known.get(name, Column(None, ""))
 
 
 def with_metadata(schema: pyarrow.Schema, describe: Describe) -> pyarrow.Schema:
-    """Return the schema with metadata in every field: its kind, its meaning, and its unit if it has one."""
+    """Return the schema with metadata in every field: kind, meaning, and unit if there is one."""
     fields = []
     for field in schema:
         unit, meaning = describe(field.name)

@@ -25,9 +25,7 @@ def folder_archive(folder: Path, files: Mapping[str, bytes], description: str = 
 
 
 def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None = None) -> dict[str, Fmu]:
-    """Return the FMUs by component name. Raises SeveralProblemsError with a line for each missing FMU or parameter
-    set.
-    """
+    """Return the FMUs by component. Raises SeveralProblemsError with a line for each missing FMU or parameter set."""
     loaded: dict[str, Fmu] = {}
     fmus: dict[str, Fmu] = {}
     problems: list[str] = []

@@ -29,9 +29,7 @@ def fmu_source(fmu: str) -> str:
 
 
 def set_source(name: str) -> str:
-    """Return the `source` attribute of a parameter binding; parameter sets in the system's folder are stored as
-    resources.
-    """
+    """Return the `source` of a parameter binding; parameter sets in the system's folder are stored as resources."""
     return name if "/" in name else f"{RESOURCES}{name}"
 
 

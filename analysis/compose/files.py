@@ -62,8 +62,7 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
 
 
 def report_changed_source(system: str | Path) -> list[str]:
-    """Return a message if a system's `system.toml` or its annotations changed since the SSD was composed, else an
-    empty list.
+    """Return a message if a `system.toml` or its annotations changed since the SSD was composed, else an empty list.
 
     Raises InputError if the system cannot be read.
     """
@@ -99,9 +98,7 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path, layer
 
 
 def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
-    """Write all files or none; an existing file with other content is never overwritten. Raises InputError and
-    OSError.
-    """
+    """Write all files or none; files with other content are never overwritten. Raises InputError and OSError."""
     for path, content in contents.items():
         if os.path.lexists(path) and read_input(path, "move this file away", ARCHIVE_BYTES) != content:
             raise InputError(

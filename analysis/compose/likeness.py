@@ -13,9 +13,7 @@ BYTES = "Annotations"  # element whose comments and white space are significant
 
 
 def canonical(element: etree._Element) -> bytes:
-    """Return an element in canonical form: children of UNORDERED sorted, comments and white space preserved only in
-    BYTES.
-    """
+    """Return an element in canonical form: children of UNORDERED sorted, comments and spaces removed except in BYTES."""
     return etree.tostring(_sort(element), method="c14n", with_comments=True)
 
 

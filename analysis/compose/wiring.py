@@ -47,9 +47,7 @@ class End:
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, SSP 1.0 type and unit; an Enumeration becomes an Integer, since systems define no
-    enumerations.
-    """
+    """A connector: kind, SSP 1.0 type and unit. An Enumeration becomes an Integer: systems define no enumerations."""
 
     kind: str
     type: str

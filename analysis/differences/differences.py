@@ -30,9 +30,7 @@ class SignalDifference:
 
     @cached_property
     def difference(self) -> np.ndarray:
-        """``second`` minus ``first``, [n]: infinite where only one is finite, 0 where both are NaN or the same
-        infinity.
-        """
+        """``second`` minus ``first``, [n]; infinite if only one is finite, 0 if both are NaN or the same infinity."""
         with np.errstate(invalid="ignore", over="ignore"):
             difference = self.second - self.first
         same = (self.first == self.second) | (np.isnan(self.first) & np.isnan(self.second))
@@ -86,8 +84,7 @@ class RunDifferences:
         return [each for each in self.signals if each.differs and not each.copy_of]
 
     def split(self, tolerance: float) -> tuple[list[SignalDifference], list[SignalDifference]]:
-        """Return the signals with a relative difference above ``tolerance``, and the signals with a smaller
-        difference.
+        """Return the signals with a relative difference above ``tolerance``, and the signals with a smaller difference.
 
         Signals without a difference and copies are omitted.
         """
@@ -142,9 +139,7 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:
-    """Return the values of a signal at times within its run: linearly interpolated or, with ``hold``, the latest
-    sample.
-    """
+    """Return a signal at times within its run: linearly interpolated or, with ``hold``, the latest sample."""
     values = run.signals[name]
     if hold:
         return values[np.searchsorted(run.time, time, side="right") - 1]

@@ -88,9 +88,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
 
 
 def file_of(source: str, base: str) -> str | None:
-    """Return the name of the file in the archive to which a URI relative to ``base`` refers; None if there is no such
-    file.
-    """
+    """Return the archive's file to which a URI relative to ``base`` refers, by name; None if there is no such file."""
     try:
         uri = urlsplit(source)
     except ValueError:

@@ -199,9 +199,7 @@ def _prepare(
 
 
 def _step(time: np.ndarray, proposed: float | None) -> float | None:
-    """Return the step (s) of a default experiment: the FMU's step if it divides all times, else the least spacing of
-    times.
-    """
+    """Return the step (s) of a default experiment: the FMU's if it divides all times, else their least spacing."""
     spacing = np.diff(time)
     if not (spacing > 0.0).any():
         return proposed

@@ -42,8 +42,7 @@ def known_studies(archive: SystemArchive) -> list[str]:
 
 
 def make_report(system: Path, name: str, options: SystemOptions, timeout: float | None = None) -> bytes:
-    """Return the JSON report of a ``study``: a campaign's name, or `STABILITY`. Raises InputError for an unknown
-    study.
+    """Return the JSON report of a ``study``: a campaign's name, or `STABILITY`. Raises InputError for an unknown study.
 
     ``timeout`` (s, wall clock) limits each trial of a campaign; a stability study has no limit.
     """

@@ -40,9 +40,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """Return the requested studies; `ALL` stands for all studies of the system. Raises InputError for an unknown
-    study.
-    """
+    """Return the requested studies; `ALL` stands for all of the system's. Raises InputError for an unknown study."""
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
@@ -54,8 +52,7 @@ def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
 
 
 def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes]:
-    """Return the files of a packed system with evidence: a simulation with default options, and reports of
-    ``studies``.
+    """Return the files of a packed system with evidence: a simulation with default options, and reports of ``studies``.
 
     If the system cannot be simulated with default options, it gets no trajectory, and a warning states why. Raises
     InputError.

@@ -24,8 +24,7 @@ from .request import ExportRequest
 def export_system(
     archive: SystemArchive, path: Path, flavour: str, platforms: Sequence[str], request: ExportRequest
 ) -> None:
-    """Export a system's folder as one archive, including the FMUs that it uses from the repository and the working
-    folder.
+    """Export a system's folder as one archive, with the FMUs that it uses from repository and working folder.
 
     Raises InputError.
     """

@@ -1,4 +1,4 @@
-"""Comparison of the variants of stored batches: rates, metrics, and pairs on the same trials."""
+"""Comparison of the variants of stored batches: rates, metrics, and pairs of contenders on the same trials."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NO_FAULTS = "without faults"
 
 @dataclass(frozen=True)
 class Contender:
-    """One variant of one batch; figures derive its colour and marker from the numbers ``batch`` and ``variant``."""
+    """A variant of a batch; the numbers ``batch`` and ``variant`` determine its colour and marker in figures."""
 
     label: str
     stored: StoredBatch
@@ -45,8 +45,8 @@ class Contender:
 class CampaignComparison:
     """Contenders by label and batches by folder name, all simulated with the same draws.
 
-    Other variants are compared with ``reference``. ``notes`` report unintended differences between the batches, and how
-    many trials crashed, hung or ran out of memory.
+    ``reference`` names the variant with which the others are compared. ``notes`` report unintended differences between
+    the batches, and the numbers of trials that crashed, hung or ran out of memory.
     """
 
     contenders: dict[str, Contender]
@@ -61,7 +61,7 @@ class CampaignComparison:
 
     @cached_property
     def _grouping(self) -> StoredBatch | None:
-        """First batch whose campaign groups trials; its groups apply to all, since draws are equal."""
+        """First batch with a campaign that groups trials; its groups apply to all batches, as the draws are equal."""
         return next((batch for batch in self.batches.values() if batch.group is not None), None)
 
     @property
@@ -75,7 +75,7 @@ class CampaignComparison:
 
     @cached_property
     def metrics(self) -> list[Metric]:
-        """Metrics of all batches in order of appearance, without those shown as rates."""
+        """Metrics of all batches in order of appearance, without metrics shown as rates."""
         return [metric for metric in self._all_metrics if metric.name not in self._truths]
 
     @cached_property
@@ -93,7 +93,7 @@ class CampaignComparison:
 
     @cached_property
     def _truths(self) -> set[str]:
-        """Names of metrics declared as true or false, or dimensionless with both and only the values 0 and 1."""
+        """Names of metrics with values 0 and 1 only, if declared as true or false, or dimensionless with both."""
         truths = set()
         for metric in self._all_metrics:
             facts = [batch.document["metrics"].get(metric.name) for batch in self.batches.values()]
@@ -107,12 +107,12 @@ class CampaignComparison:
         return truths
 
     def values(self, label: str, metric: str) -> np.ndarray:
-        """Return a metric in every trial of a contender; nan if its batch does not have the metric."""
+        """Return a metric in every trial of a contender; nan if the contender's batch does not have the metric."""
         trials = self.contenders[label].trials
         return np.asarray(trials.metrics.get(metric, np.full(len(trials), np.nan)), dtype=float)
 
     def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
-        """Return for each trial of a contender whether the rate counts it; non-finite metrics do not count."""
+        """Return True for each trial of a contender that the rate counts; non-finite metrics do not count."""
         if rate is None:
             return self.contenders[label].trials.success
         values = self.values(label, rate.name)
@@ -120,7 +120,7 @@ class CampaignComparison:
 
     @cached_property
     def summary(self) -> Summary:
-        """Summary of each contender, as of a batch's variant, with ``rates`` by name; likewise for its groups."""
+        """Summary of each contender, as of a variant in a batch, with ``rates`` by name, also for each group."""
         grouping = self._grouping
         by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
@@ -152,9 +152,9 @@ class CampaignComparison:
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
-        """Labels (A, B) of contenders that differ in one respect: variants of a batch, or a variant in two batches.
+        """Labels (A, B) of contenders that differ in one respect: two variants of a batch, or a variant in two batches.
 
-        B is the reference if it is one of the two, else the earlier contender.
+        B is the reference if the reference is one of the two, else the earlier contender.
         """
         pairs = []
         for first, second in itertools.combinations(self.contenders.values(), 2):
@@ -165,7 +165,7 @@ class CampaignComparison:
         return pairs
 
     def against_reference(self, pair: tuple[str, str]) -> bool:
-        """Return True if B of a pair is the reference variant or, for pairs of batches, in the first batch."""
+        """Return True if B of a pair is the reference variant or, for a pair of batches, belongs to the first batch."""
         first, second = (self.contenders[label] for label in pair)
         return second.name == self.reference if first.batch == second.batch else second.batch == 0
 
@@ -173,7 +173,7 @@ class CampaignComparison:
         return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
     def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
-        """Return the comparison of a metric of two contenders on the same trials: successful ones of both, or all."""
+        """Return the comparison of a metric between two contenders, over all trials or those successful for both."""
         a, b = (self.values(label, metric) for label in pair)
         if successful:
             both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
@@ -182,12 +182,12 @@ class CampaignComparison:
 
     @property
     def has_faults(self) -> bool:
-        """True if any of the batches has faults."""
+        """True if any batch has faults."""
         return any(batch.faults for batch in self.batches.values())
 
     @property
     def has_requirements(self) -> bool:
-        """True if the campaign of any of the batches declares requirements."""
+        """True if the campaign of any batch declares requirements."""
         return any(batch.has_requirements for batch in self.batches.values())
 
     def content(self) -> dict[str, object]:
@@ -223,8 +223,8 @@ class CampaignComparison:
     def text(self, metrics: Sequence[str] = ()) -> str:
         """Return the comparison for a terminal: rates with intervals, then metrics of the successful trials.
 
-        ``metrics`` are those to print, or ``all``; by default those of success and requirements. Raises InputError for
-        one that no batch has.
+        ``metrics`` names the metrics to print, or is ``all``; by default the metrics of success and requirements are
+        printed. Raises InputError for a metric that no batch has.
         """
         if metrics:
             named = select_metrics(metrics, [metric.name for metric in self._all_metrics], ())
@@ -233,7 +233,7 @@ class CampaignComparison:
             selected = select_metrics((), [metric.name for metric in self.metrics], self.judged_names)
         names = [name_of(rate) for rate in self.rates]
         rows = summary_rows(self.summary)
-        level = f"({100 * CONFIDENCE:g} %)"  # metrics are over all trials, unlike those of a batch's own summary
+        level = f"({100 * CONFIDENCE:g} %)"  # metrics are over all trials, unlike in the summary of a batch
         heads = [f"{name} % {level}" if name == SUCCESS else f"{name} % of all {level}" for name in names]
         cells = [[*group_headings(self.group), "trials", *heads]]
         for row in rows:
@@ -244,7 +244,7 @@ class CampaignComparison:
         return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:
-        """Return the faults of every batch as lines; none if no batch has faults."""
+        """Return the faults of every batch as lines; an empty list if no batch has faults."""
         lines = {name: faults_line(batch.faults) if batch.faults else NO_FAULTS for name, batch in self.batches.items()}
         if not self.has_faults:
             return []

@@ -16,11 +16,11 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class PairedRates:
-    """Counts of yes-or-no outcomes of variants A and B in the same trials.
+    """Counts of true and false outcomes of variants A and B in the same trials.
 
-    ``difference`` is A's rate minus B's, with its ``interval``. ``p_value`` is that of McNemar's exact test: the
-    probability of a split at least as uneven of the trials in which A and B differ, if both outcomes were equally
-    likely.
+    ``difference`` is A's rate minus B's rate, with its ``interval``. ``p_value`` is the p-value of McNemar's exact
+    test: the probability that the trials in which A and B differ are split at least as unevenly, if both directions
+    were equally likely.
     """
 
     both: int
@@ -34,11 +34,12 @@ class PairedRates:
 
 @dataclass(frozen=True)
 class PairedValues:
-    """Comparison of a metric of variants A and B over the ``count`` trials in which both are finite.
+    """Comparison of a metric of variants A and B over the ``count`` trials in which both values are finite.
 
-    ``smaller``, ``equal`` and ``larger`` count trials by A's value relative to B's. ``median`` is that of A minus B,
-    the lower of the two middle values for an even number; its ``interval`` is None with too few trials. ``p_value`` is
-    that of the sign test without ties. All three are None if there are no trials.
+    ``smaller``, ``equal`` and ``larger`` are the numbers of trials in which A's value is smaller than, equal to or
+    larger than B's. ``median`` is the median of A minus B (for an even number of trials, the lower of the two middle
+    values). ``interval`` is the median's confidence interval, or None with too few trials. ``p_value`` is the p-value
+    of the sign test without ties. All three are None if there are no trials.
     """
 
     count: int
@@ -53,9 +54,9 @@ class PairedValues:
 def compare_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedRates:
     """Compare outcomes ``a`` and ``b`` (booleans [trial], at least one trial).
 
-    The interval of the difference is Bonett and Price's (2012, J. Educ. Behav. Stat. 37, 479): Wald's with one trial
-    added to each kind of disagreement. Fagerland, Lydersen and Laake (2014, Stat. Med. 33, 2850) recommend it for its
-    coverage in small samples.
+    The interval of the difference is the one by Bonett and Price (2012, J. Educ. Behav. Stat. 37, 479): Wald's interval
+    with one trial added to each kind of disagreement. Fagerland, Lydersen and Laake (2014, Stat. Med. 33, 2850)
+    recommend it for its coverage in small samples.
     """
     a, b = np.asarray(a, dtype=bool), np.asarray(b, dtype=bool)
     only_a, only_b = int(np.sum(a & ~b)), int(np.sum(~a & b))
@@ -77,8 +78,8 @@ def compare_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) 
 def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedValues:
     """Compare values ``a`` and ``b`` [trial] of a metric.
 
-    The median's interval is between two order statistics of the differences, and covers the true median with at least
-    ``confidence`` for any distribution.
+    The ends of the median's interval are two order statistics of the differences. It covers the true median with at
+    least ``confidence`` for any distribution.
     """
     finite = np.isfinite(a) & np.isfinite(b)
     difference = np.asarray(a, dtype=float)[finite] - np.asarray(b, dtype=float)[finite]
@@ -99,10 +100,11 @@ def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE)
 
 
 def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
-    """Return p-values adjusted for multiple tests: the family-wise error rate is at most 5 % for those up to 0.05.
+    """Return p-values adjusted for multiple tests.
 
-    Holm (1979, Scand. J. Statist. 6, 65): the smallest of n values is multiplied by n, the next by n - 1, and so on;
-    none is smaller than the one before it.
+    If values up to 0.05 are significant, the family-wise error rate is at most 5 %. Holm (1979, Scand. J. Statist. 6,
+    65): the smallest of n values is multiplied by n, the next by n - 1, and so on; no adjusted value is smaller than
+    the adjusted value before it.
     """
     p = np.asarray(p_values, dtype=float)
     order = np.argsort(p)
@@ -112,5 +114,5 @@ def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
 
 
 def _even_split(first: int, second: int) -> float:
-    """Return the two-sided p-value of a fair coin for these counts; 1 if both are 0."""
+    """Return the two-sided p-value of these counts for a fair coin; 1 if both counts are 0."""
     return float(binomtest(first, first + second).pvalue) if first + second else 1.0

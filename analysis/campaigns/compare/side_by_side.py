@@ -1,4 +1,4 @@
-"""Reads stored batches and compares them; only batches with the same draws are comparable."""
+"""Functions that read stored batches and compare them; only batches with the same draws are comparable."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def compare(folders: Sequence[Path], reference: str | None = None) -> CampaignCo
 def compare_folders(make: type[Result], folders: Sequence[Path], reference: str | None = None) -> Result:
     """Read the batches in folders and return the comparison of their variants, an instance of ``make``.
 
-    ``reference`` names a variant, by default the first. Raises InputError for a folder without a batch, and for batches
-    with different draws.
+    ``reference`` names the reference variant, by default the first. Raises InputError for a folder without a batch, and
+    for batches with different draws.
     """
     resolved = [folder.resolve() for folder in folders]
     for folder, path in zip(folders, resolved, strict=True):
@@ -61,14 +61,14 @@ def compare_folders(make: type[Result], folders: Sequence[Path], reference: str 
 
 
 def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:
-    """Return a contender's label from whatever distinguishes it: variant, folder, or both."""
+    """Return a contender's label from the names that distinguish it: variant, folder, or both."""
     if not several:
         return variant
     return folder if single else f"{folder}: {variant}"
 
 
 def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
-    """Reject batches with different numbers of trials or different draws."""
+    """Reject batches with different draws or numbers of trials."""
     count, other_count = (len(next(iter(batch.variants.values()))) for batch in (first, other))
     problem = ""
     if count != other_count:
@@ -116,7 +116,7 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
 
 
 def _distinct_names(paths: Sequence[Path]) -> list[str]:
-    """Return the shortest trailing parts of paths that distinguish them."""
+    """Return the shortest trailing portions of paths that distinguish the paths."""
     for length in range(1, max(len(path.parts) for path in paths) + 1):
         names = ["/".join(path.parts[-length:]) for path in paths]
         if len(set(names)) == len(names):

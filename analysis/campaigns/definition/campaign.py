@@ -25,10 +25,10 @@ Setting = float | int | bool | str | Sequence[float | int]
 
 @dataclass(frozen=True)
 class Metric:
-    """One number per trial: an expression over the record, reduced over the rows of a window.
+    """A number for each trial: an expression over the record, reduced over the rows of a window.
 
-    ``band`` (low, high) is used by the reduction last_outside, ``condition`` and ``delay`` (s) by first; ``window``
-    (t0, t1) is in s and includes both ends, None means the whole simulation. ``unit`` labels the value.
+    The reduction last_outside uses ``band`` (low, high); the reduction first uses ``condition`` and ``delay`` (s).
+    ``window`` (t0, t1) is in s and includes both ends; None means the entire simulation. ``unit`` labels the value.
     """
 
     name: str
@@ -43,13 +43,13 @@ class Metric:
 
     @property
     def names(self) -> frozenset[str]:
-        """Names used in its expressions."""
+        """Names used in the metric's expressions."""
         return self.expression.names | (self.condition.names if self.condition is not None else frozenset())
 
 
 @dataclass(frozen=True)
 class TrialRecord:
-    """Stored values of a trial besides its metrics: final values, every n-th row of signals, full traces.
+    """Stored values of a trial besides its metrics: final values, every n-th row of signals, complete traces.
 
     Sampled signals are only stored for the first ``trials`` trials.
     """
@@ -63,9 +63,9 @@ class TrialRecord:
 
 @dataclass(frozen=True)
 class Scatter:
-    """Scatter plot for a batch's page: the metric ``y`` of every trial over ``x``.
+    """Scatter plot on a batch's page: the metric ``y`` of every trial over the metric ``x``.
 
-    ``circle`` is the radius of a circle around the origin, in the unit of both, or None.
+    ``circle`` is the radius of a circle around the origin, in the unit of both metrics, or None.
     """
 
     name: str
@@ -82,8 +82,8 @@ SCHEMES = ("table", "counter")  # one table of all trials, or counter-based valu
 class Variant:
     """Variant of the system: a configuration, or a combination of compared FMUs.
 
-    ``use`` maps components to FMUs, ``parameters`` lists parameter sets, ``settings`` maps ``component.variable`` to
-    values; they override the campaign's.
+    ``use`` maps components to FMUs, ``parameters`` lists parameter sets, and ``settings`` maps ``component.variable``
+    to values. They override the campaign's.
     """
 
     name: str
@@ -97,11 +97,11 @@ class Campaign:
     """Campaign as declared. Raises InputError for invalid numbers of trials or seeds, also after `replace`.
 
     ``metrics``, ``draws`` and ``derived`` are in the order of the file; ``derived`` are expressions over draws and
-    earlier derived values. ``settings`` and ``compare`` are [set] and [compare]; ``configurations`` are
-    [configuration.NAME], of which only ``selected`` is simulated, if set; ``group`` is the drawn or derived value by
-    which [group] groups trials; ``faults`` are [fault], ``scatters`` [scatter], ``requirements`` [requirement],
-    ``lookups`` [lookup]; ``draw_scheme`` is one of `SCHEMES`. ``file`` is named in errors. ``sweeps`` are the draws
-    added by the command line, as texts by name (sweeps.py).
+    earlier derived values. These attributes contain tables of the file: ``settings`` [set], ``compare`` [compare],
+    ``configurations`` [configuration.NAME], ``faults`` [fault], ``scatters`` [scatter], ``requirements`` [requirement]
+    and ``lookups`` [lookup]. ``selected`` names the only configuration to simulate, if set. ``group`` is the drawn or
+    derived value by which [group] groups trials. ``draw_scheme`` is one of `SCHEMES`. ``file`` is named in errors.
+    ``sweeps`` are the draws added by the command line, as texts by name (sweeps.py).
     """
 
     file: str
@@ -152,7 +152,7 @@ class Campaign:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
 
     def layer_of(self, variant: Variant) -> Layer:
-        """Return the FMUs, parameter sets and values of a variant, including those common to all variants."""
+        """Return the FMUs, parameter sets and values of a variant, including those that all variants have in common."""
         settings = {**self.settings, **variant.settings}
         places = dict.fromkeys(settings, (self.file, 0))
         return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
@@ -167,7 +167,7 @@ class Campaign:
         return [metric.name for metric in self.metrics if metric.names & looked_up]
 
     def without_lookups(self) -> Campaign:
-        """Return the campaign for other trials than its own: without lookups and metrics that use them.
+        """Return the campaign without lookups and metrics that use them, for trials other than the campaign's own.
 
         Raises InputError if success or a requirement needs one of these metrics.
         """
@@ -188,13 +188,13 @@ class Campaign:
         )
 
     def place_of(self, drawn: str) -> str:
-        """Return the origin of a drawn value for error messages: the file, or the option that sweeps it."""
+        """Return the origin of a drawn value for error messages: the file, or the option with the sweep."""
         return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
-        """Return the configurations, or all combinations of the compared FMUs, or one variant named ``default``.
+        """Return the configurations, or all combinations of the compared FMUs, or a single variant named ``default``.
 
-        If one is ``selected``, only that one is returned.
+        If a variant is ``selected``, only this variant is returned.
         """
         return [each for each in self._list_variants() if self.selected in (None, each.name)]
 
@@ -220,18 +220,18 @@ MAXIMUM_GROUPS = 100  # groups of a campaign
 
 @dataclass(frozen=True)
 class TrialGroup:
-    """Trials that share one ``value``; ``label`` is the value as text, unique among the groups."""
+    """Trials that share a ``value``; ``label`` is the value as text, unique among the groups."""
 
     label: str
     value: float
 
     def has(self, values: np.ndarray) -> np.ndarray:
-        """Return for each trial whether it is in the group, from ``values`` (trials,)."""
+        """Return True for each trial in the group; ``values`` (trials,) are the values by which trials are grouped."""
         return values == self.value
 
 
 def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[TrialGroup]:
-    """Return the groups of trials with equal finite values, in ascending order; values come in blocks (trials,).
+    """Return the groups of trials with equal finite values, in ascending order; values are passed in blocks (trials,).
 
     ``where`` (file, element) is named in errors. Raises InputError for more than `MAXIMUM_GROUPS` groups.
     """

@@ -21,12 +21,12 @@ from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan, with_streams
 
-OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causalities of values that an FMU computes
+OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causalities of values that may change over time
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Check a plan completely, and return its prepared systems by variant. Raises InputError."""
-    first = next(plan.draw_parts())  # samples of all trials are checked block by block, once the rest is right
+    first = next(plan.draw_parts())  # samples of all trials are checked block by block, after everything else
     plan.values_from(first, range(first.trials))
     _ = plan.groups
     _refuse_conflicts(plan)
@@ -65,7 +65,7 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
 
 
 def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> None:
-    """Reject lookup tables that were computed for other trials, in any variant. Raises InputError."""
+    """Reject lookup tables that were computed for other trials than those of a variant. Raises InputError."""
     for lookup in plan.campaign.lookups:
         checked: list[dict[str, float]] = []
         for variant, prepared in systems.items():
@@ -81,7 +81,7 @@ def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Non
 
 
 def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) -> dict[str, float]:
-    """Return the undrawn parameters of a variant to which the inputs of a lookup refer, by name.
+    """Return, by name, the undrawn parameters of a variant to which the inputs of a lookup refer.
 
     Raises InputError for a name that is neither drawn nor a parameter.
     """
@@ -97,7 +97,7 @@ def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) 
 
 
 def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
-    """Reject random streams for a component that has none."""
+    """Reject random streams for a component that does not use any."""
     if plan.supplied is None:
         return
     known = sorted({name for prepared in systems for name in with_streams(prepared)})
@@ -117,7 +117,7 @@ class _Variable(NamedTuple):
 
 
 def _refuse_conflicts(plan: BatchPlan) -> None:
-    """Reject options that the campaign would override: FMUs of compared slots, values that are drawn."""
+    """Reject options that the campaign would override: FMUs of compared components, and drawn values."""
     variants = plan.campaign.variants()
     for slot in plan.options.use:
         if slot in plan.campaign.compare:
@@ -139,7 +139,7 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
 
 
 def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
-    """Return the varied variable of this name. Raises InputError unless it is a parameter that can be drawn."""
+    """Return the variable of this name, to be varied. Raises InputError unless it is a parameter that can be drawn."""
     place = plan.campaign.place_of(name)
     known: list[str] = []
     for component, fmu in prepared.network.fmus.items():
@@ -162,7 +162,7 @@ def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
 
 
 def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.ndarray, first: int) -> None:
-    """Reject values that a parameter cannot have, in trials from ``first`` on."""
+    """Reject values that a parameter cannot have; the first value belongs to trial ``first``."""
     place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
         remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
@@ -218,7 +218,7 @@ def _is_signal(prepared: PreparedSystem, name: str) -> bool:
 
 
 def _causality(prepared: PreparedSystem, name: str) -> str:
-    """Return the causality of an FMU's numeric or Boolean variable, "" if there is none of this name."""
+    """Return the causality of an FMU's numeric or Boolean variable, or "" if there is no such variable."""
     component, variable_name = split_name(name, prepared.network.fmus)
     variable = prepared.network.fmus[component].variables.get(variable_name) if component else None
     return "" if variable is None or variable.type in TEXTS else variable.causality

@@ -1,4 +1,4 @@
-"""Distributions of a campaign file: uniform and discrete ones, and the reader of [draw.NAME]."""
+"""Distributions of a campaign file: uniform and discrete distributions, and the reader of [draw.NAME]."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ normal_distribution, normal_quantile = elementary("normal_distribution"), elemen
 
 @dataclass(frozen=True)
 class _Interval(Continuous):
-    """Uniform value between ``low`` and ``high``; as a function of a standard normal u: low + (high - low) Phi(u)."""
+    """Uniform value between ``low`` and ``high``: low + (high - low) Phi(u) for a standard normal value u."""
 
     low: float
     high: float
@@ -31,7 +31,7 @@ class _Interval(Continuous):
 
     @classmethod
     def read(cls, table: TomlTable) -> Self:
-        """Return the distribution in its table of a campaign. Raises InputError."""
+        """Return the distribution declared in its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         return cls(*read_ends(table))
 
@@ -41,7 +41,7 @@ class _Interval(Continuous):
 
     def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
         width = self.high - self.low
-        # from the nearer end, so that neither tail is rounded away
+        # computed from the nearer end, so that rounding loses neither tail
         low, high = self.low + width * normal_distribution(u), self.high - width * normal_distribution(-u)
         return [np.where(u < 0.0, low, high)[:, 0]]
 
@@ -71,7 +71,7 @@ class Uniform(_Interval, Independent):
 
 
 class _UniformDesign(_Interval, Design):
-    """Uniform values of which the whole table is designed; blocks of trials are cut from it."""
+    """Uniform values from a design of the complete table, from which blocks of trials are taken."""
 
     alternative: ClassVar[str] = Uniform.keyword
 
@@ -81,24 +81,24 @@ class _UniformDesign(_Interval, Design):
         whole = {}
         for index, draw in enumerate(draws):
             interval = draw.distribution
-            assert isinstance(interval, _Interval)  # true of all draws of this kind
+            assert isinstance(interval, _Interval)  # true for all draws with this distribution
             whole[draw.name] = interval.low + (interval.high - interval.low) * points[index]
         return lambda part: {name: column[part.start : part.stop] for name, column in whole.items()}
 
     @classmethod
     def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
-        """Return numbers in [0, 1), an array (trials,) for each draw."""
+        """Return numbers in [0, 1) for each draw, as an array (trials,)."""
         raise NotImplementedError
 
 
 class LatinHypercube(_UniformDesign):
-    """One value in each of as many equal strata as there are trials, shuffled independently for each draw."""
+    """One value in each of n equal strata for n trials, shuffled independently for each draw."""
 
     keyword = "latin_hypercube"
 
     @classmethod
     def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
-        # a Latin hypercube is one such column per dimension; drawn singly, a column does not depend on the others
+        # a Latin hypercube has one such column for each dimension; separate streams keep them independent
         return [
             scipy.stats.qmc.LatinHypercube(1, rng=generator(seed, draw.name)).random(trials)[:, 0] for draw in draws
         ]
@@ -133,7 +133,7 @@ def read_ends(table: TomlTable) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Discrete(Distribution):
-    """Distribution with single ``values``."""
+    """Distribution over a finite number of ``values``."""
 
     values: tuple[float, ...]
 
@@ -177,7 +177,7 @@ class Grid(Discrete, Design):
 
     @classmethod
     def read(cls, table: TomlTable) -> Self:
-        """Return the grid in its table of a campaign: its values, or ``count`` values from low to high.
+        """Return the grid declared in its table of a campaign: its values, or ``count`` values from low to high.
 
         Raises InputError.
         """

@@ -1,9 +1,9 @@
 """Arithmetic expressions over named values, compiled once and safe to take from a file.
 
-The text is parsed as Python, every node is checked against a list of permitted ones, and the tree is translated to a
+The text is parsed as Python, every node is checked against a list of permitted nodes, and the tree is translated to a
 function of the names that it uses. Attributes of objects and builtins are inaccessible. The functions are those of
 kernels, with the same bits on every processor. All numbers are doubles with IEEE arithmetic (1/0 is inf, sqrt(-1) is
-nan), elementwise on arrays; true is 1, false is 0, and anything but 0 is true.
+nan), elementwise on arrays. Logical results are 1 and 0; any operand other than 0 counts as true.
 """
 
 from __future__ import annotations
@@ -65,12 +65,12 @@ COMPARISONS: dict[type[ast.cmpop], Callable] = {
 
 
 def _truth(value: np.ndarray) -> np.ndarray:
-    """Return Booleans as doubles, since numpy would add two of them to True, and cannot subtract them."""
+    """Return Booleans as doubles, since numpy adds two Booleans to True and cannot subtract them."""
     return np.multiply(value, 1.0)
 
 
 def _chain(operators: list[Callable]) -> Callable:
-    """Return the function of its operands for a chain of comparisons, a < b <= c ..."""
+    """Return the function of the operands that evaluates a chain of comparisons, a < b <= c ..."""
 
     if len(operators) == 1:
         return lambda one, other: _truth(operators[0](one, other))
@@ -92,7 +92,7 @@ ALLOWED = "numbers, names, + - * / // % **, comparisons, and, or, not, and funct
 
 
 def path_name(node: ast.expr) -> str | None:
-    """Return the variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
+    """Return the variable named by a node (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
     match node:
         case ast.Name(id=name):
             return name
@@ -112,7 +112,7 @@ def path_name(node: ast.expr) -> str | None:
 
 
 def is_name(text: str) -> bool:
-    """Return True if ``text`` is a variable's name as in expressions, without spaces and quotes."""
+    """Return True if ``text`` is the name of a variable as in expressions, without spaces and quotes."""
     try:
         node = _parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -121,15 +121,15 @@ def is_name(text: str) -> bool:
 
 
 def _parse(text: str) -> ast.expr:
-    """Parse an expression. Raises SyntaxError, also where Python only warns, as for ``1if x``."""
+    """Parse an expression. Raises SyntaxError, also if Python would only issue a warning, as for ``1if x``."""
     with warnings.catch_warnings():
-        for category in (SyntaxWarning, DeprecationWarning):  # the latter before Python 3.12
+        for category in (SyntaxWarning, DeprecationWarning):  # DeprecationWarning before Python 3.12
             warnings.simplefilter("error", category)
         return ast.parse(text, mode="eval").body
 
 
 class _Translator:
-    """Replaces the leaves of a checked syntax tree by slots: v0, v1, ... for variables, others for numbers."""
+    """Replaces the leaves of a checked syntax tree by arguments: v0, v1, ... for variables, others for numbers."""
 
     def __init__(self, text: str, where: Where) -> None:
         self.text = text
@@ -141,7 +141,7 @@ class _Translator:
         raise InputError(*self.where, f"{problem} in {textwrap.shorten(self.text, 100)!r}", remedy)
 
     def number(self, value: float) -> ast.expr:
-        """Return a number as a numpy double, so that no Python integer or complex arithmetic takes place."""
+        """Return a number as a numpy double, so that Python does not use integer or complex arithmetic."""
         slot = f"n{len(self.namespace)}"
         self.namespace[slot] = np.float64(value)
         return ast.Name(slot, ast.Load())
@@ -212,9 +212,9 @@ class _Translator:
 class Expression:
     """Arithmetic expression over named values.
 
-    ``text`` may span lines; ``where`` (file, element) is named in errors. ``names`` are the variables it needs:
-    identifiers or dotted paths, with an index if there is one, as in ``plant.position[1]``, or a quoted text, as in
-    ``default.groups["2.5"].trials``. Raises InputError for invalid text.
+    ``text`` may span lines; ``where`` (file, element) is named in errors. ``names`` are the variables that it needs:
+    identifiers or dotted paths, with an index if there is one, as in ``plant.position[1]``, or with a quoted text, as
+    in ``default.groups["2.5"].trials``. Raises InputError for invalid text.
     """
 
     def __init__(self, text: str, where: Where = ("expression", "")) -> None:
@@ -224,7 +224,7 @@ class Expression:
         translator = _Translator(self.text, where)
         if "#" in self.text:
             translator.refuse("contains a comment", "remove it, or put it outside the text")
-        if "\0" in self.text:  # Python's versions report it differently
+        if "\0" in self.text:  # versions of Python report it differently
             translator.refuse("contains a null character", "write plain characters")
         try:
             body = translator.translate(_parse(self.text))
@@ -243,7 +243,7 @@ class Expression:
 
     @property
     def is_truth(self) -> bool:
-        """True if the value is 0 or 1 by construction: a comparison, or logic."""
+        """True if the value is 0 or 1 by construction: a comparison, or a logical expression."""
         body = ast.parse(self.text, mode="eval").body
         return isinstance(body, ast.Compare | ast.BoolOp) or (
             isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
@@ -252,21 +252,21 @@ class Expression:
     def evaluate(self, values: Mapping[str, ArrayLike]) -> float | np.ndarray:
         """Return the value: a float, or an array of doubles if one of the values is an array.
 
-        ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape. Raises InputError for a
-        missing name. Division by zero and the like give inf or nan.
+        ``values`` maps at least ``names`` to floats, integers, booleans or arrays of the same shape. Raises InputError
+        for a missing name. Division by zero and the like yield inf or nan.
         """
         arguments = []
         for name in self._order:
             if name not in values:
                 raise InputError(*self.where, f"{name!r} in {self.text!r} is unknown", suggestion(name, values))
-            # contiguous, since numpy may compute strided arrays by other code with other last bits
+            # contiguous, since numpy may use other code, with other last bits, for strided arrays
             arguments.append(np.asarray(values[name], dtype=np.float64, order="C"))
         with np.errstate(all="ignore"):
             result = np.asarray(self._function(*arguments))
         return result if result.ndim else float(result)
 
     def __reduce__(self) -> tuple:
-        return Expression, (self.text, self.where)  # code is not picklable; the text is
+        return Expression, (self.text, self.where)  # the text is picklable, code is not
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Expression) and other.text == self.text

@@ -1,4 +1,4 @@
-"""Faults of a campaign: a connector, with expressions over draws for value, times and whether it acts."""
+"""Faults of a campaign: a connector, with expressions over draws for value, times and whether the fault acts."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ KEYS = ("connector", "kind", "value", "start", "end", "when")
 
 @dataclass(frozen=True)
 class CampaignFault:
-    """Fault declared in [fault.NAME]: a `perilune.Fault` in every trial, or in those in which ``when`` is true.
+    """Fault declared in [fault.NAME]: a `perilune.Fault` in every trial, or in the trials for which ``when`` is true.
 
     ``value`` (in the connector's unit; None for freeze), ``start`` and ``end`` (s; None for no end) are expressions
-    over drawn and derived values; a Boolean connector's value may be a bool. ``file`` is named in errors.
+    over drawn and derived values; the value for a Boolean connector may be a bool. ``file`` is named in errors.
     """
 
     name: str
@@ -41,7 +41,7 @@ class CampaignFault:
         return [part for part in (self.value, self.start, self.end, self.when) if isinstance(part, Expression)]
 
     def where(self, key: str) -> tuple[str, str]:
-        """Return file and element of one of its keys, for errors."""
+        """Return file and element of one of the fault's keys, for errors."""
         return self.file, f"fault.{self.name}.{key}"
 
     def __str__(self) -> str:
@@ -78,7 +78,7 @@ def _value(table: TomlTable, key: str, value: object) -> Expression | bool:
 
 
 def _formula(table: TomlTable, key: str, value: object) -> Expression:
-    """Return a finite number, or an expression from text."""
+    """Return a finite number, or the expression in a text."""
     if isinstance(value, str):
         return expression(table, key, value)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
@@ -92,8 +92,9 @@ def _formula(table: TomlTable, key: str, value: object) -> Expression:
 class DrawnFault:
     """Fault of a campaign in consecutive trials, as arrays with one entry for each trial.
 
-    ``flies`` is True where the fault acts; ``value`` (in the connector's unit), ``start`` and ``end`` (s) are nan
-    elsewhere, and ``end`` is inf without an end. A Boolean's value is a bool array. A freeze has no ``value``.
+    ``flies`` is True for trials in which the fault acts. In other trials ``value`` (in the connector's unit), ``start``
+    and ``end`` (s) are nan. ``end`` is inf for a fault without an end. The value for a Boolean is a bool array; a
+    freeze has no ``value``.
     """
 
     declared: CampaignFault
@@ -103,7 +104,7 @@ class DrawnFault:
     end: np.ndarray
 
     def in_trial(self, trial: int) -> Fault | None:
-        """Return the fault in one of the trials, counted from 0, or None if it does not act."""
+        """Return the fault in one of the trials, counted from 0, or None if it does not act in it."""
         if not self.flies[trial]:
             return None
         value = 0.0 if self.value is None else self.value[trial].item()
@@ -111,12 +112,12 @@ class DrawnFault:
         return Fault(name, kind, value, float(self.start[trial]), float(self.end[trial]))
 
     def columns_of(self, rows: slice) -> FaultColumns:
-        """Return the fault in a range of the trials."""
+        """Return the fault in a range of these trials."""
         value = np.zeros(self.flies.size) if self.value is None else self.value.astype(np.float64)
         return FaultColumns(self.flies[rows], value[rows], self.start[rows], self.end[rows])
 
     def columns(self) -> dict[str, np.ndarray]:
-        """Return its columns in the table of trials, by name."""
+        """Return the fault's columns in the table of trials, by name."""
         name = f"fault.{self.declared.name}"
         value = {} if self.value is None else {f"{name}.value": np.where(self.flies, self.value, math.nan)}
         return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
@@ -131,7 +132,7 @@ def fault_columns(fault: Fault, flights: int) -> FaultColumns:
 def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
     """Evaluate a fault for consecutive trials with these ``numbers``, from their ``draws``.
 
-    Raises InputError if an expression is not finite, or a window empty, in a trial in which the fault acts.
+    Raises InputError if, in a trial in which the fault acts, an expression is not finite or the window is empty.
     """
     trials = len(numbers)
     everywhere = np.ones(trials, dtype=bool)

@@ -1,4 +1,4 @@
-"""Reads a campaign from its TOML file; unknown entries are rejected by name."""
+"""Reader of a campaign's TOML file; unknown entries are rejected by name."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from .requirements import read_requirements
 from .source import read_source_file
 from .table import REQUIRED, TomlTable, bound, choice_of, expression, integer, names, number, sequence, text
 
-SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
-# of records, of the results' table and of files of draws
+SYNTHESIS = "network_operator"  # table read by analysis.synthesis.synthesis_file
+# Names of columns in records, tables of results and files of draws
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})
-REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
+REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that only one reduction uses
 TABLE = (
     "system", "description", "trials", "seed", "parameters", "draw_scheme", "set", "compare", "configuration", "draw",
     "derive", "fault", "group", "lookup", "metric", "record", "success", "requirement", "scatter",
@@ -30,7 +30,7 @@ SCATTER = ("x", "y", "circle", "title")
 
 
 def _check_name(table: TomlTable, name: str, taken: Iterable[str]) -> None:
-    """Reject a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
+    """Reject the name of a drawn value, derived value or metric that is malformed, reserved or already ``taken``."""
     if not is_name(name):
         remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
         raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
@@ -196,7 +196,7 @@ def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatte
 
 
 def parse_campaign(table: TomlTable) -> Campaign:
-    """Return the campaign in a table read from a file or created in memory. Raises InputError."""
+    """Return the campaign declared in a table, which was read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then simulate the law in a campaign without this table"
         raise table.error(SYNTHESIS, "declares a search, which perilune batch cannot run", remedy)

@@ -1,4 +1,4 @@
-"""System to which a campaign's file belongs, if a command names none."""
+"""System to which a campaign's file belongs, for commands that name no system."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # in a system's folder
 
 
 def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
-    """Return the system with which a campaign's file is checked: the one in whose folder of campaigns it is.
+    """Return the system with which a campaign's file is checked: the one in whose folder of campaigns the file is.
 
-    For files elsewhere it is the one of the ``named`` systems (paths or names) whose name the file states, else the
-    first of them. Without ``named``, it is Perilune's system of that name; if the file states none, the first one with
-    a campaign that the file extends by name. None if there is none. Raises InputError for a file that is not TOML.
+    For other files with ``named`` systems (paths or names), it is the named system whose name the file states, or else
+    the first. Without named systems, it is Perilune's system whose name the file states or, if the file states none,
+    the first with a campaign that the file extends by name. None is returned if there is no such system. Raises
+    InputError for a file that is not TOML.
     """
     for folder in path.resolve().parents:
         holds = any(path.resolve().is_relative_to(folder / each) for each in FOLDERS)
@@ -43,7 +44,7 @@ def is_called(text: str, name: str) -> bool:
 
 
 def _names_of(systems: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """Yield each system with its name, except those that cannot be opened, which other checks report."""
+    """Yield each system with its name; omit systems that cannot be opened, which other checks report."""
     for system in systems:
         with suppress(InputError):
             yield system, open_system(system).name

@@ -1,4 +1,4 @@
-"""Evaluates metrics of trials from their records, and success from metrics."""
+"""Evaluation of metrics from the records of trials, and of success from metrics."""
 
 from __future__ import annotations
 
@@ -10,21 +10,22 @@ from .campaign import Metric
 from .expressions import Expression
 from .reductions import EVER, REDUCTIONS, ReductionRule, reduce_rows
 
-TIME = "time"  # the name under which expressions see the record's times, s
+TIME = "time"  # name of the record's times (s) in expressions
 
 
 def names_needed(metrics: Iterable[Metric], drawn: Iterable[str]) -> set[str]:
-    """Return the signals and parameters to which the metrics refer: all their names except times and draws."""
+    """Return the signals and parameters to which the metrics refer: all of their names except times and draws."""
     return {name for metric in metrics for name in metric.names} - set(drawn) - {TIME}
 
 
 def evaluate_metric(
     metric: Metric, times: np.ndarray, values: Mapping[str, np.ndarray | float], ends: np.ndarray
 ) -> np.ndarray:
-    """Evaluate one metric of consecutive simulations (simulations,), whose rows end before ``ends``.
+    """Return the values (simulations,) of a metric in consecutive simulations.
 
-    ``times`` are in s, one per row; ``values`` are arrays over rows, or floats. The metric is NaN if a simulation has
-    no row in the window, because it ended earlier. Raises InputError for a name that ``values`` lacks.
+    The rows of a simulation end before its entry in ``ends``. ``times`` are in s, one for each row; ``values`` are
+    arrays over rows, or floats. The metric is NaN if a simulation has no row in the window because it ended earlier.
+    Raises InputError for a name that ``values`` lacks.
     """
 
     def rows_of(formula: Expression) -> np.ndarray:
@@ -49,9 +50,9 @@ def is_of_the_end(metric: Metric) -> bool:
 
 
 def successes(success: Expression, metrics: Mapping[str, np.ndarray], trials: int) -> np.ndarray:
-    """Return for each trial whether it succeeds, from its metrics (trials,).
+    """Return, for each trial, True if it succeeds, from its metrics (trials,).
 
-    A trial fails if a metric in the expression is not finite.
+    A trial with a non-finite metric in the expression does not succeed.
     """
     value = np.broadcast_to(success.evaluate(metrics), (trials,))
     return np.all(np.isfinite([value, *(metrics[name] for name in success.names)]), axis=0) & (value != 0.0)

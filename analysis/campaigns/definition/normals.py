@@ -1,4 +1,4 @@
-"""Normal distributions: independent, or correlated ones.
+"""Normal distributions, independent or correlated.
 
 The isoprobabilistic transformation (Hohenbichler and Rackwitz 1981) is in closed form: mean + sigma u, or for jointly
 normal values mean + V sqrt(D) u, with the eigenvalues D and eigenvectors V of their covariance.
@@ -17,7 +17,7 @@ from ..draws.declared import Continuous, Independent
 from ..draws.generators import standard_normals
 from .table import TomlTable, names, number, numbers, sequence
 
-FLAT = 1e-12  # fraction of the largest eigenvalue of a covariance, below which an axis does not vary
+FLAT = 1e-12  # fraction of a covariance's largest eigenvalue; axes with smaller eigenvalues do not vary
 
 
 class _Jointly(Continuous, Independent):
@@ -40,7 +40,7 @@ class _Jointly(Continuous, Independent):
 
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         offset = np.column_stack(columns) - np.array(self.means)
-        inverse = self.factor / np.sum(self.factor**2, axis=0)  # its columns are orthogonal
+        inverse = self.factor / np.sum(self.factor**2, axis=0)  # valid because its columns are orthogonal
         return np.column_stack(_combine([0.0] * self.size, inverse.T, offset))
 
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
@@ -128,9 +128,10 @@ class CorrelatedNormal(_Jointly):
 
 @cache
 def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Return eigenvalues in ascending order, and eigenvectors as columns, of a symmetric matrix.
+    """Return the eigenvalues of a symmetric matrix, in ascending order, and its eigenvectors as columns.
 
-    They are computed in 30 digits: LAPACK's last bits, and with them the draws, would depend on the processor.
+    They are computed with 30 digits: the last bits of LAPACK's results, and therefore the draws, would depend on the
+    processor.
     """
     from mpmath import mp
 
@@ -140,6 +141,6 @@ def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarra
 
 
 def _combine(means: Sequence[float], factor: np.ndarray, u: np.ndarray) -> list[np.ndarray]:
-    """Return the values mean + factor u, an array (points,) for each mean."""
+    """Return the values mean + factor u, as an array (points,) for each mean."""
     # summed column by column: a matrix product may round a row differently in a longer table
     return [mean + sum(factor[i, j] * u[:, j] for j in range(factor.shape[1])) for i, mean in enumerate(means)]

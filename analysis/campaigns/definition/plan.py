@@ -32,7 +32,7 @@ from .sweeps import with_sweeps
 class TrialSamples:
     """Samples of the trials ``numbers`` of a plan.
 
-    ``supplied`` are samples supplied instead of drawn ones; ``user_faults`` are those of the command line.
+    ``supplied`` samples replace drawn ones; ``user_faults`` are the faults from the command line.
     """
 
     campaign: Campaign
@@ -43,16 +43,16 @@ class TrialSamples:
     faults: Sequence[DrawnFault]
 
     def columns_of(self, trials: range) -> dict[str, np.ndarray]:
-        """Return all drawn and derived values of some of these trials, by name."""
+        """Return, by name, all drawn and derived values of some of these trials."""
         rows = self._rows(trials)
         return {name: column[rows] for name, column in self.table.columns.items()}
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """Return the faults of a trial, in the order of `BatchPlan.list_faults`; None for those that do not act."""
+        """Return the faults of a trial, in the order of `BatchPlan.list_faults`; None for faults that do not act."""
         return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.user_faults]
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
-        """Return the parameters of a trial: draws, and seed and stream of every component that has them."""
+        """Return the parameters of a trial: draws, and the seed and stream of every component that has them."""
         columns = self._columns(prepared, range(trial, trial + 1))
         return {name: column.item() for name, column in columns.items()}
 
@@ -85,7 +85,7 @@ def with_streams(prepared: PreparedSystem) -> list[str]:
     return [name for name, fmu in prepared.network.fmus.items() if {SEED, STREAM} <= fmu.variables.keys()]
 
 
-PART = 32768  # trials whose draws are checked together; few enough for bounded memory
+PART = 32768  # trials whose draws are checked together, which bounds memory
 
 
 @dataclass(frozen=True)
@@ -93,8 +93,8 @@ class BatchPlan:
     """Complete definition of a batch, small enough to be sent to every worker.
 
     ``options`` are the user's system options, which override the campaign's; draws override parameter sets.
-    ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names parameters that the executor of the plan sets
-    in every simulation. ``faults`` are the user's, which act in every trial after the campaign's; ``series`` are the
+    ``campaign_sha256`` is the digest of the campaign's file. ``overlaid`` parameters are set in every simulation by the
+    executor of the plan. ``faults`` are the user's, applied in every trial after the campaign's; ``series`` are the
     inputs over time of all trials; ``watch`` supervises each simulation. ``supplied`` samples replace drawn ones.
     """
 
@@ -108,10 +108,10 @@ class BatchPlan:
     watch: Watch = UNWATCHED
     supplied: SuppliedDraws | None = None
     compared_by: str = ""  # origin of the compared FMUs in errors: --compare, or the campaign's file
-    source: CampaignSource | None = None  # the campaign's file, with those that it extends
-    until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
-    archive: SystemArchive | None = None  # simulated instead of the system that `system` names
-    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # draws of all trials, if known already
+    source: CampaignSource | None = None  # the campaign's file, with the files that it extends
+    until_decided: bool = False  # True if the batch ends as soon as the campaign's requirements are decided
+    archive: SystemArchive | None = None  # simulated instead of the system named by `system`
+    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # draws of all trials, if already known
 
     @cached_property
     def draws(self) -> Draws:
@@ -128,7 +128,7 @@ class BatchPlan:
         return self.supplied is None and self.campaign.draw_scheme == "counter"
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
-        """Yield the samples of all trials in blocks of ``size``, without keeping them in memory. Raises InputError."""
+        """Yield the samples of all trials in blocks of ``size``, without storing them in memory. Raises InputError."""
         if self.supplied is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
@@ -151,17 +151,17 @@ class BatchPlan:
     def of_part(self, trials: range) -> BatchPlan:
         """Return a plan of consecutive trials, with unchanged draws.
 
-        Unless they begin with trial 0, the draws must be supplied ones.
+        The draws must be supplied ones unless the trials begin with trial 0.
         """
         supplied = None if self.supplied is None else self.supplied.of_part(trials)
         draws = None
-        if not self.is_counted:  # drawn again for fewer trials they may differ
+        if not self.is_counted:  # draws for fewer trials may differ
             draws = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
         campaign = replace(self.campaign, trials=len(trials))
         return replace(self, campaign=campaign, supplied=supplied, known_draws=draws)
 
     def of_samples(self, supplied: SuppliedDraws) -> BatchPlan:
-        """Return a plan with one trial for each supplied sample, with derived values, faults and metrics from them.
+        """Return a plan with a trial for each supplied sample, which determines derived values, faults and metrics.
 
         Lookups are omitted, since their numbers belong to the campaign's own draws. Raises InputError.
         """
@@ -170,18 +170,18 @@ class BatchPlan:
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
-        """Groups of trials by which results are summarised; none if there is no [group]. Raises InputError."""
+        """Groups of trials by which results are summarised; empty if there is no [group]. Raises InputError."""
         if self.campaign.group is None:
             return []
         parts = (part.columns[self.campaign.group] for part in self.draw_parts())
         return groups_of(parts, (self.campaign.file, "group.by"))
 
     def list_faults(self) -> list[Fault]:
-        """Return all faults, the campaign's first; only connectors and kinds of the campaign's are significant."""
+        """Return all faults, the campaign's first. Of the campaign's faults only connector and kind are meaningful."""
         return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """Return the faults of one trial, in the order of `list_faults`; None for those that do not act."""
+        """Return the faults of one trial, in the order of `list_faults`; None for faults that do not act."""
         return self.values_of(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
@@ -205,11 +205,11 @@ class BatchPlan:
         return self.compared_by or "compare"
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
-        """Return the parameters of one trial: draws, and seed and stream of every component that has them."""
+        """Return the parameters of one trial: draws, and the seed and stream of every component that has them."""
         return self.values_of(range(trial, trial + 1)).parameters(prepared, trial)
 
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
-        """Return the names of `parameters`, which are the same for every trial."""
+        """Return the names of the `parameters`, which are the same for every trial."""
         sampled = {name for name in self.campaign.input_names() if "." in name}
         return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in (SEED, STREAM)}
 
@@ -230,17 +230,17 @@ def read_plan(
     draws: Path | None = None,
     sweeps: Mapping[str, str] | None = None,
 ) -> BatchPlan:
-    """Return the plan of a campaign, by name or path, with the command line's changes. Raises InputError.
+    """Return the plan of a campaign, by name or path, with the changes of the command line. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison and configurations; ``configuration`` selects one of its
-    variants, by default all are simulated. ``faults`` are added to its own; ``series`` are inputs over time; ``draws``
-    is a file of draws that replace drawn ones; ``sweeps`` are parameters with low:high:step.
+    ``compare`` replaces the campaign's comparison and configurations. ``configuration`` selects a variant; by default
+    all variants are simulated. ``faults`` are added to the campaign's. ``series`` contains inputs over time. ``draws``
+    is a file of draws that replace the campaign's, and ``sweeps`` maps parameters to low:high:step.
     """
     archive = open_system(system)
     raw, label = archive.campaign(campaign)
     source = read_source(raw, label, archive)
     read = parse_campaign(source.table())
-    is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # whatever the archive is called
+    is_its = archive.path.suffix == ".ssp" and label.startswith(f"{archive.label}!")  # regardless of the archive's name
     if not is_called(read.system, archive.name) and not is_its:
         raise InputError(
             label, "system", f"the campaign is for {read.system}, not {archive.name}", f"simulate {read.system}"

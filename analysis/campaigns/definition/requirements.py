@@ -12,15 +12,16 @@ from .table import REQUIRED, TomlTable, choice_of, expression, number, text
 
 KEYS = ("expression", "share", "confidence", "metric", "bound", "description")
 SIDES = ("upper", "lower")
-SUCCESS = "success"  # whether the trial is a success, for expressions of requirements
+SUCCESS = "success"  # name, in expressions of requirements, of a trial's success
 
 
 @dataclass(frozen=True)
 class Requirement:
     """Requirement [requirement.NAME]: a ``share`` of all simulations satisfies ``expression``, with ``confidence``.
 
-    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one with a tolerance bound, ``bound``
-    ("upper" or "lower"), which the share satisfies with the confidence; None if there is none.
+    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is a metric with a tolerance bound: the
+    share of all simulations satisfies this bound, which is on the side ``bound`` ("upper" or "lower"), with the
+    confidence. It is None if the requirement has no such metric.
     """
 
     name: str
@@ -37,7 +38,7 @@ class Requirement:
 
 
 def read_requirements(table: TomlTable, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
-    """Return the requirements in the table [requirement]; ``metrics`` are the campaign's by name.
+    """Return the requirements in the table [requirement]; ``metrics`` are the campaign's metrics by name.
 
     Verdicts need independent trials, so draws that are designed for all trials together are rejected. Raises
     InputError.
@@ -75,7 +76,7 @@ def _requirement(name: str, table: TomlTable, metrics: Collection[str]) -> Requi
 
 
 def _share(table: TomlTable, key: str, value: object) -> float:
-    """Return a number between 0 and 1, also from a text in per cent: "99.87 %"."""
+    """Return a number between 0 and 1, also from a text in per cent such as "99.87 %"."""
     written = value.strip() if isinstance(value, str) else ""
     percent = written.endswith("%")
     fraction = number(table, key, written[:-1] if percent else value) / (100.0 if percent else 1.0)

@@ -1,4 +1,4 @@
-"""Text of a campaign: its TOML file merged with those that it extends, and the file and line of each value."""
+"""Text of a campaign: its TOML file merged with the files that it extends, and the file and line of each value."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from ....common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
 from .table import TomlTable
 
-LOOKUP, FILE = "lookup", "file"  # tables that each refer to a file
+LOOKUP, FILE = "lookup", "file"  # table of tables with a file each, and their key for it
 EXTENDS = "extends"
-HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
+HERE = "."  # position of the file's own entries in the list of files; by default its end
 Origin = tuple[str, int]  # file and line
-Attached = tuple[str, bytes | None]  # a file's label, and its content or None
+Attached = tuple[str, bytes | None]  # a file's label, and its content (None if missing)
 
 
 @dataclass(frozen=True)
 class CampaignSource:
-    """File of a campaign, ``raw``, its ``label`` for messages, and the files that it ``extends``, in order.
+    """Campaign file: its content ``raw``, its ``label`` for messages, and the files that it ``extends``, in order.
 
-    ``position`` is the number of those whose entries precede its own; by default all of them. ``attached`` are the
-    tables of its lookups, by the paths that it states.
+    The file's own entries are merged after the first ``position`` extended files, by default after all of them.
+    ``attached`` contains the tables of the file's lookups, by the paths that it states.
     """
 
     label: str
@@ -49,16 +49,17 @@ class CampaignSource:
         return digest.hexdigest()
 
     def files(self) -> Iterator[CampaignSource]:
-        """Yield this file and all that it extends."""
+        """Yield this file and all files that it extends."""
         yield self
         for part in self.extends:
             yield from part.files()
 
     def table(self) -> TomlTable:
-        """Return the merged content. A later file's entry replaces an earlier one of the same name.
+        """Return the merged content. A later file's entry replaces an earlier entry of the same name.
 
-        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables; those of
-        [set], [derive], [compare], [record], [group] and [success], and all in [lookup], are values. Raises InputError.
+        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables; the entries
+        of [set], [derive], [compare], [record], [group] and [success], and all entries in [lookup], are values. Raises
+        InputError.
         """
         content: dict[str, object] = {}
         origins: dict[str, Origin] = {}
@@ -81,22 +82,22 @@ class CampaignSource:
 
 
 def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
-    """Read a campaign's file, in an ``archive`` or elsewhere, with those that it extends.
+    """Read a campaign's file, in an ``archive`` or elsewhere, with the files that it extends.
 
-    Raises InputError, also for a cycle.
+    Raises InputError, also for a cycle of files.
     """
     return _read_source(raw, label, archive, (), [label])
 
 
 def read_source_file(path: Path) -> CampaignSource:
-    """Read a campaign's file by its path, with those that it extends. Raises InputError."""
+    """Read a campaign's file by its path, with the files that it extends. Raises InputError."""
     return read_source(read_input(path, "give a campaign's file", CAMPAIGN_BYTES), str(path))
 
 
 def _read_source(
     raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...], files: list[str]
 ) -> CampaignSource:
-    """Read a file with those that it extends, collected in ``files``; ``chain`` are the files that lead to it."""
+    """Read a file with the files that it extends, collected in ``files``; ``chain`` are the files that lead to it."""
     content = parse_toml(raw, label)
     names = content.get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
@@ -141,7 +142,7 @@ def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
-    """Find a file that ``origin`` extends: by relative path, else by name among the system's campaigns."""
+    """Find a file that ``origin`` extends: by relative path, or else by name among the system's campaigns."""
     inside = None if archive is None else archive.name_of(origin)
     if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
@@ -153,7 +154,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
             return read_input(file, "extend another file", CAMPAIGN_BYTES), str(file)
     known = [] if archive is None else archive.campaign_names()
     if archive is not None:
-        path = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
+        path = archive.campaign_path(name)  # a copy of a system's campaign extends the same files as the original
         if path in archive.files:
             return archive.read(path, origin), archive.label_of(path)
         if name in known:
@@ -176,7 +177,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
         _check_integers(content, "", label)
     except RecursionError as error:
         raise InputError(label, "", "not TOML: arrays or tables are nested too deeply", "correct the file") from error
-    except ValueError as error:  # also for integers of many thousand digits
+    except ValueError as error:  # also raised for integers of many thousand digits
         if isinstance(error, InputError):
             raise
         raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
@@ -196,9 +197,9 @@ def _check_integers(entry: object, name: str, label: str) -> None:
 
 
 def _merge(content: dict[str, object], later: Mapping[str, object], label: str) -> None:
-    """Merge a later file into ``content``: tables by entry, everything else as a whole.
+    """Merge a later file into ``content``: tables by entry, all other values as units.
 
-    Its configurations replace earlier compared FMUs, its compared FMUs earlier configurations.
+    Its configurations replace compared FMUs of earlier files, and its compared FMUs replace earlier configurations.
     """
     variants = [key for key in VARIANTS if later.get(key)]
     if len(variants) == 1:
@@ -223,12 +224,12 @@ def _join(earlier: Mapping[str, object], later: Mapping[str, object], deep: bool
     return {**earlier, **later, **both}
 
 
-VARIANTS = ("compare", "configuration")  # tables of which a campaign has one
+VARIANTS = ("compare", "configuration")  # tables that exclude each other
 FLAT = ("set", "derive", "compare")  # tables whose names have dots
 
 
 KEY = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*')"""
-MOST_SEGMENTS = 100  # segments of a name: tomllib's time grows with their square
+MOST_SEGMENTS = 100  # most segments of a name, since tomllib's time grows with their square
 LONG_NAME = re.compile(rf"""(?<![\w.-])(?>{KEY}(?:[ \t]*+\.[ \t]*+{KEY}){{{MOST_SEGMENTS}}})""")
 DOTTED = rf"{KEY}(?:\s*\.\s*{KEY})*"
 HEADER = re.compile(rf"\s*\[(?P<array>\[)?\s*(?P<name>{DOTTED})\s*\]")
@@ -237,7 +238,7 @@ TOKEN = re.compile(r"""\"{3}|\'{3}|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'|#[^\n]*|[\[\]{}
 
 
 def key_lines(text: str) -> dict[str, int]:
-    """Return the line of each key by its dotted name, ``draw.x.low``, without quotes. ``text`` is TOML."""
+    """Return the line of each key by its dotted name, such as ``draw.x.low``, without quotes. ``text`` is TOML."""
     lines: dict[str, int] = {}
     prefix, position, number = "", 0, 1
     while position < len(text):
@@ -261,7 +262,7 @@ def _plain(name: str) -> str:
 
 
 def _value_end(text: str, position: int) -> int:
-    """Return the end of the line on which the value that begins at a position ends."""
+    """Return the end of the line on which a value ends, from the position at which the value begins."""
     depth = 0
     while position < len(text):
         if text[position] == "\n" and not depth:

@@ -1,4 +1,4 @@
-"""Sweeps: a parameter that `--set` of a batch sets to low:high:step becomes a grid draw of the campaign."""
+"""Sweeps: a parameter set to low:high:step by `--set` of a batch becomes a grid draw of the campaign."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def split_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]
 
 
 def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
-    """Return the campaign with swept parameters on a grid, in every combination with its own grids.
+    """Return the campaign with swept parameters on a grid, combined with the campaign's own grids.
 
-    ``sweeps`` are texts low:high:step by parameter, in its unit; the values are low + k step, up to and including high.
-    They replace those of the campaign's [set]; a single sweep also groups the results if the campaign has no group.
-    Raises InputError for a malformed sweep, or one that the campaign excludes.
+    ``sweeps`` are texts low:high:step by parameter, in the parameter's unit; the values are low + k step, up to and
+    including high. They replace values of the campaign's [set]. A single sweep also groups the results if the campaign
+    has no group. Raises InputError for a malformed sweep, or one that the campaign excludes.
     """
     if not sweeps:
         return campaign
@@ -68,7 +68,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
 
 
 def _parse_range(text: str) -> list[float]:
-    """Return the three numbers of a sweep, or none if the text is not a sweep."""
+    """Return the three numbers of a sweep; an empty list if the text is no sweep."""
     try:
         ends = [float(part) for part in text.split(":")]
     except ValueError:
@@ -97,7 +97,7 @@ def _values(name: str, text: str) -> tuple[float, ...]:
 
 
 def _check_trials(campaign: Campaign) -> None:
-    """Reject a number of trials that is not a multiple of the grid's points, the campaign's own grids included."""
+    """Reject a number of trials that is not a multiple of the number of points on all grids."""
     grids = [draw.distribution for draw in campaign.draws if isinstance(draw.distribution, Grid)]
     points = math.prod(len(grid.values) for grid in grids)
     if campaign.trials % points:

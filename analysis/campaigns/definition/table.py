@@ -1,4 +1,4 @@
-"""Checked reading of a TOML file: InputError names any unknown key and any value of a wrong kind."""
+"""Checked reading of a TOML file: InputError names any unknown key and any value of a wrong type."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ REQUIRED: Any = object()
 
 
 class TomlTable:
-    """Table of a TOML file; ``element`` is its path in the file, as in ``metric.position_error``.
+    """Table of a TOML file; ``element`` is the table's path in the file, such as ``metric.position_error``.
 
-    ``origins`` are file and line of values by path, if they are from several files. ``attached`` maps the file that
-    refers to another, and the reference, to the label of that file and its content, None if it is missing.
+    ``origins`` maps paths of values to file and line, if the values are from several files. ``attached`` maps a file
+    and a reference in it to the label and the content of the referenced file; the content is None if that file is
+    missing.
     """
 
     def __init__(
@@ -59,7 +60,7 @@ class TomlTable:
                 raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
 
     def get(self, key: str, kind: Callable[[TomlTable, str, object], T], default: T = REQUIRED) -> T:
-        """Return the value of ``key``, read by ``kind`` (`text`, `number`, ...), or ``default`` if it is missing."""
+        """Return the value of ``key``, read by ``kind`` (`text`, `number`, ...), or ``default`` without such a key."""
         if key in self.content:
             return kind(self, key, self.content[key])
         if default is REQUIRED:
@@ -67,7 +68,7 @@ class TomlTable:
         return default
 
     def table(self, key: str) -> TomlTable:
-        """Return the subtable ``key``, empty if it is missing."""
+        """Return the subtable ``key``; an empty table if the key is missing."""
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
@@ -81,9 +82,9 @@ class TomlTable:
         return [(name, self.table(name)) for name in self.content]
 
     def flat(self, of_tables: bool = False) -> Iterator[tuple[str, object]]:
-        """Yield name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
+        """Yield name and value of the entries; names in nested tables become dotted: a.b = 1 is the same as "a.b" = 1.
 
-        With ``of_tables`` the entries are tables themselves, and only tables of tables are unfolded.
+        With ``of_tables`` the entries are tables themselves, and only tables of tables are flattened.
         """
 
         def walk(prefix: str, content: Mapping[str, object]) -> Iterator[tuple[str, object]]:
@@ -161,7 +162,7 @@ def names(table: TomlTable, key: str, value: object) -> tuple[str, ...]:
 
 
 def expression(table: TomlTable, key: str, value: object) -> Expression:
-    """Return the expression in a text, see `Expression`."""
+    """Return the expression in a text; see `Expression`."""
     return Expression(text(table, key, value), table.where(key))
 
 

@@ -16,8 +16,8 @@ Argument: TypeAlias = "float | tuple[Argument, ...]"
 class Distribution(ABC):
     """Distribution with its arguments, which are the fields of a frozen dataclass under the keys of the file.
 
-    ``keyword`` is its name in a campaign's file; ``size`` is the number of its independent coordinates, 0 if it is
-    discrete.
+    ``keyword`` is the name of the distribution in a campaign's file; ``size`` is the number of its independent
+    coordinates, 0 if it is discrete.
     """
 
     keyword: ClassVar[str]
@@ -37,21 +37,21 @@ class Distribution(ABC):
 
 
 class Independent(Distribution):
-    """Distribution whose trials are independent of each other."""
+    """Distribution with trials that are independent of each other."""
 
     @abstractmethod
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        """Draw the next ``trials`` values from a random stream; an array (trials,) for each name of the draw.
+        """Draw the next ``trials`` values from a random stream; return an array (trials,) for each name of the draw.
 
         The values do not depend on how trials are divided into blocks.
         """
 
 
 class Design(Distribution):
-    """Distribution sampled by one design of all trials, for all draws with this distribution together.
+    """Distribution that is sampled by a single design of all trials, for all draws with this distribution together.
 
-    ``alternative`` is the distribution with independent trials. ``is_periodic``: any block of trials can be drawn
-    without the others.
+    ``alternative`` is the distribution with independent trials. If ``is_periodic``, any block of trials can be drawn
+    without the other blocks.
     """
 
     alternative: ClassVar[str]
@@ -75,19 +75,19 @@ class Continuous(Distribution):
 
     @abstractmethod
     def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
-        """Return columns for standard normal values ``u`` (points, size): the isoprobabilistic transformation."""
+        """Return columns for standard normal values ``u`` (points, size), by the isoprobabilistic transformation."""
 
     @abstractmethod
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
-        """Return the inverse of `from_normals`, infinite at the ends of an interval."""
+        """Return the inverse of `from_normals`, which is infinite at the ends of an interval."""
 
     @abstractmethod
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
-        """Return columns for ``points`` (points, size) of the unit cube."""
+        """Return columns for ``points`` (points, size) in the unit cube."""
 
     @abstractmethod
     def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
-        """Return the inverse of `from_box`, below 0 or above 1 outside the box."""
+        """Return the inverse of `from_box`, which is below 0 or above 1 outside the box."""
 
     @abstractmethod
     def ranges(self, sigmas: float) -> list[tuple[float, float]]:
@@ -96,10 +96,10 @@ class Continuous(Distribution):
 
 @dataclass(frozen=True)
 class Draw:
-    """Dispersed input: the values that it draws (``names``) and their distribution.
+    """Dispersed input: the names of the values that it draws, and their distribution.
 
-    ``names`` consists of the draw's name, except for correlated_normal, which draws several. A name with a dot is a
-    component's parameter; others are for [derive] and the metrics only.
+    ``names`` contains only the draw's name, except for correlated_normal, which draws several values. A value with a
+    dot in its name is a component's parameter; others are only for [derive] and the metrics.
     """
 
     name: str
@@ -120,7 +120,7 @@ class Formula(Protocol):
 
 
 class Numbers(Protocol):
-    """Numbers by trial under a name, which are not drawn."""
+    """Numbers by trial, with a name, that are not drawn."""
 
     @property
     def name(self) -> str: ...

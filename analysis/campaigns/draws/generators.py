@@ -9,17 +9,17 @@ import numpy as np
 from ....common.errors import InputError
 from .declared import Columns, Draw, Independent
 
-TAIL = 3.6541528853610088  # from here on numpy's ziggurat (Marsaglia and Tsang 2000) computes by the C library's log1p
+TAIL = 3.6541528853610088  # beyond this value numpy's ziggurat (Marsaglia and Tsang 2000) uses the C library's log1p
 STEP = 2.0**-30
 
 
 def generator(seed: int, name: str) -> np.random.Generator:
-    """Return the random stream of the draw ``name``: counter-based (Philox), independent of all other names."""
+    """Return the random stream of the draw ``name``, which is counter-based (Philox) and independent of other names."""
     return np.random.Generator(np.random.Philox(_sequence(seed, name)))
 
 
 def generator_at(seed: int, name: str, block: int) -> np.random.Generator:
-    """Return the stream of `generator` for a block of trials, with its 256-bit counter starting at ``block`` 2^192."""
+    """Return the stream of `generator` for a block of trials; its 256-bit counter starts at ``block`` * 2^192."""
     key = _sequence(seed, name).generate_state(2, np.uint64)
     return np.random.Generator(np.random.Philox(key=key, counter=np.array([0, 0, 0, block], dtype=np.uint64)))
 
@@ -49,7 +49,7 @@ def independent_draws(draws: Sequence[Draw]) -> list[tuple[Draw, Independent]]:
 
 
 def sample_columns(draw: Draw, distribution: Independent, trials: int, source: np.random.Generator) -> Columns:
-    """Draw the next ``trials`` values from a draw's stream; an array (trials,) for each name."""
+    """Draw the next ``trials`` values from a draw's stream; return an array (trials,) for each name."""
     return dict(zip(draw.names, distribution.sample(trials, source), strict=True))
 
 
@@ -61,8 +61,8 @@ def stream_numbers(
 ) -> tuple[int, np.ndarray]:
     """Return the seed of a component, and its stream numbers in ``trials`` (n,), the same for every variant.
 
-    No two pairs (trial, component) share a stream. ``component_names`` are all components, in any order; ``where`` is
-    the file named in errors. Raises InputError if a stream number exceeds an FMI Integer.
+    No two pairs (trial, component) share a stream. ``component_names`` contains the names of all components, in any
+    order; ``where`` is the file named in errors. Raises InputError if a stream number exceeds an FMI Integer.
     """
     names = sorted(set(component_names))
     last = int(trials.max(initial=0))

@@ -25,11 +25,11 @@ DIGITS = 16  # hexadecimal digits of SHA-256
 COMMAND, INPUT = "# made by: ", "# input: "
 WRITE = "compute the table again; perilune design bounds computes the table of [lookup.bound]"
 
-InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
+InputColumns = Mapping[str, Sequence[np.ndarray]]  # one or more arrays (trials,) by name
 
 
 def input_hashes(columns: InputColumns) -> list[str]:
-    """Return a hash of each trial's exact input values; the order of the inputs does not matter."""
+    """Return a hash of each trial's exact input values, which does not depend on the order of the inputs."""
     rows = {name: np.stack(values, axis=1).tolist() for name, values in sorted(columns.items())}
     trials = len(next(iter(rows.values())))
     hashes = []
@@ -43,8 +43,8 @@ def input_hashes(columns: InputColumns) -> list[str]:
 class LookupTable:
     """Table of ``columns``, arrays (trials,) by name, with the ``hashes`` of the trials' inputs.
 
-    ``inputs`` are the formulas of the inputs, a text for each name; ``command`` is the one that wrote the table, "" if
-    unknown.
+    ``inputs`` contains the formulas of the inputs as texts by name. ``command`` is the command that wrote the table, or
+    "" if unknown.
     """
 
     columns: Mapping[str, np.ndarray]
@@ -54,11 +54,11 @@ class LookupTable:
 
     @property
     def remedy(self) -> str:
-        """Remedy if the table was computed for other trials than the campaign's."""
+        """Remedy for a table that was computed for other trials than the campaign's."""
         return f"write it again: {self.command}" if self.command else WRITE
 
     def write(self, decimals: Mapping[str, int]) -> bytes:
-        """Return the table as CSV, with ``decimals`` of each column."""
+        """Return the table as CSV; ``decimals`` are the numbers of decimals of the columns."""
         lines = [f"{COMMAND}{self.command}"] if self.command else []
         lines += [f"{INPUT}{name} = {text}" for name, text in self.inputs.items()]
         lines.append(",".join((TRIAL, INPUTS, *self.columns)))
@@ -101,9 +101,9 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
 class Lookup:
     """Numbers of trials under a ``name`` that metrics can use: a ``column`` of a table.
 
-    The table was computed from ``inputs``: by name, one or more formulas over draws, derived values and parameters.
-    ``file`` is its path as stated in the campaign's file ``origin``, ``label`` its name in messages; ``content`` is
-    None if the file is missing.
+    ``inputs`` contains, by name, one or more formulas over draws, derived values and parameters from which the table
+    was computed. ``file`` is the table's path as stated in the campaign's file ``origin``, ``label`` its name in
+    messages; ``content`` is None if the file is missing.
     """
 
     name: str
@@ -138,7 +138,7 @@ class Lookup:
         return table
 
     def numbers_of(self, trials: range) -> np.ndarray:
-        """Return the numbers of consecutive trials. Raises InputError if the table has fewer trials."""
+        """Return the numbers of consecutive trials. Raises InputError if the table does not contain all of them."""
         rows = len(self.table.hashes)
         if trials.stop > rows:
             problem = f"has {rows} trials, but the campaign has {trials.stop} or more"
@@ -146,14 +146,14 @@ class Lookup:
         return self.table.columns[self.column][trials.start : trials.stop]
 
     def input_columns(self, known: Mapping[str, np.ndarray | float], trials: int) -> InputColumns:
-        """Return the inputs of ``trials`` trials; ``known`` are draws, derived values and parameters by name."""
+        """Return the inputs of ``trials`` trials; ``known`` contains draws, derived values and parameters by name."""
         return {
             name: [np.array(np.broadcast_to(formula.evaluate(known), (trials,)), dtype=float) for formula in formulas]
             for name, formulas in self.inputs.items()
         }
 
     def check(self, columns: InputColumns, trials: range, variant: str) -> None:
-        """Reject a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
+        """Reject a table that was computed from inputs other than these ``columns`` of a variant. Raises InputError."""
         different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
         if different:
             problem = f"{', '.join(different)}: occurs in only one of the table and [{self.element}.inputs]"

@@ -1,4 +1,4 @@
-"""Samples supplied by the user instead of drawn: one trial for each row."""
+"""Samples supplied by the user instead of drawn, with one trial for each row."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ....common.errors import InputError, suggestion
 from ....common.regular import read_input
 from .declared import CampaignDraws, input_names
 
-if TYPE_CHECKING:  # imported where a file is read
+if TYPE_CHECKING:  # imported at run time only when a file is read
     import pyarrow
 
-STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
+STREAMS = "streams_of"  # column of the trials whose random streams are used; streams_of.NAME for a single component
 ALL = ""  # key for all components without a separate entry
 TRIAL = "trial"
 REMEDY = "give a Parquet file of draws"
@@ -31,9 +31,9 @@ Streams = Mapping[str, np.ndarray]
 class SuppliedDraws:
     """Supplied draws for all trials: ``columns`` maps every drawn name to an array (trials,) of doubles.
 
-    ``streams`` maps a component to the numbers of the trials (trials,) whose random streams it uses; `ALL` stands for
-    the components that are not named. A component without either uses the streams of the trial itself. ``file`` and
-    ``sha256`` are the origin. There is at least one column or stream.
+    ``streams`` maps a component to the numbers (trials,) of the trials whose random streams the component uses. The key
+    `ALL` stands for all components without an entry; if it is missing, they use the streams of the trial itself.
+    ``file`` and ``sha256`` are the origin. There is at least one column or stream.
     """
 
     columns: Mapping[str, np.ndarray]
@@ -47,7 +47,7 @@ class SuppliedDraws:
 
     @property
     def table(self) -> dict[str, np.ndarray]:
-        """All columns, including those of streams if trials use other streams than their own."""
+        """All columns, including columns of streams if trials use the streams of other trials."""
         return dict(self.columns) | {stream_column(name): values.astype(float) for name, values in self.streams.items()}
 
     def streams_of(self, trials: range, component: str) -> np.ndarray:
@@ -68,7 +68,7 @@ class SuppliedDraws:
 
 
 def stream_column(component: str) -> str:
-    """Return the name of the column with the trials whose random streams a component uses."""
+    """Return the name of a component's column with the numbers of trials whose random streams it uses."""
     return STREAMS if component == ALL else f"{STREAMS}.{component}"
 
 
@@ -80,7 +80,7 @@ def stream_component(column: str) -> str | None:
 
 
 def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Split the columns of a file into draws, and streams by component as integers."""
+    """Split the columns of a file into draws, and streams (as integers) by component."""
     components = {name: stream_component(name) for name in columns}
     draws = {name: values for name, values in columns.items() if components[name] is None}
     streams = {
@@ -90,10 +90,11 @@ def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarra
 
 
 def read_supplied(path: Path, campaign: CampaignDraws) -> SuppliedDraws:
-    """Read the draws of a campaign from a Parquet file with a row per trial, like a batch's draws.parquet.
+    """Read the draws of a campaign from a Parquet file with a row for each trial, like a batch's draws.parquet.
 
-    Columns ``streams_of.COMPONENT`` state which trial's random stream a component uses in a row, ``streams_of`` that of
-    the others; the default is the row's number. Derived values are not read, but evaluated again. Raises InputError.
+    A column ``streams_of.COMPONENT`` states the trial whose random stream the component uses in a row; a column
+    ``streams_of`` states it for all other components. The default is the row's number. Derived values are not read, but
+    evaluated again. Raises InputError.
     """
     import pyarrow.parquet
 
@@ -106,7 +107,7 @@ def read_supplied(path: Path, campaign: CampaignDraws) -> SuppliedDraws:
         table = file.read()
     except OSError as error:  # includes Arrow's errors for damaged files
         raise InputError(path, "", error.strerror or str(error), REMEDY) from error
-    except (UnicodeDecodeError, pyarrow.ArrowException) as error:  # the former for names of columns
+    except (UnicodeDecodeError, pyarrow.ArrowException) as error:  # UnicodeDecodeError for names of columns
         raise InputError(path, "", f"not Parquet: {error}", REMEDY) from error
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
     if not table.num_rows:

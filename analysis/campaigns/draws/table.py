@@ -1,12 +1,12 @@
-"""Draws of all trials from the root seed: as one table, or counter-based.
+"""Draws of all trials from the root seed: in one table, or counter-based.
 
-In a table each draw has a separate random stream, with the seed and its name as the key, of which trial k uses the k-th
-portion: a trial's values depend neither on the number of trials nor on other draws. Grids, Latin hypercubes and Sobol
-sequences are designs of the whole table instead.
+In a table each draw has a separate random stream, with the seed and the draw's name as the key, of which trial k uses
+the k-th portion: a trial's values depend neither on the number of trials nor on other draws. Grids, Latin hypercubes
+and Sobol sequences, however, are designs of the complete table.
 
 Counter-based draws need no table. Trials are divided into blocks of 1024, independently of shards. The values of a draw
 in a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the
-block's number: no two blocks and no two names share a number. The values differ from those of a table.
+block's number: no two blocks and no two names share a random number. The values differ from those of a table.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Draws(Protocol):
 
 @dataclass(frozen=True)
 class DrawTable:
-    """All drawn and derived values: ``columns`` maps each name to an array of doubles, one per trial."""
+    """All drawn and derived values: ``columns`` maps each name to an array of doubles, one for each trial."""
 
     trials: int
     columns: Mapping[str, np.ndarray]
@@ -54,7 +54,7 @@ class DrawTable:
         return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, rows: slice) -> dict[str, np.ndarray]:
-        """Return the columns of some trials that are component parameters: drawn ones with a dot in their name."""
+        """Return the drawn columns of component parameters, whose names contain a dot, in some trials."""
         return {
             name: column[rows]
             for name, column in self.columns.items()
@@ -63,15 +63,15 @@ class DrawTable:
 
 
 def split_trials(trials: int, size: int) -> Iterator[range]:
-    """Yield the ranges of all trials, ``size`` trials at a time."""
+    """Yield the ranges of all trials, with ``size`` trials each."""
     return (range(first, min(first + size, trials)) for first in range(0, trials, size))
 
 
 def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
-    """Yield the table of draws and derived values, ``size`` trials at a time, columns in the file's order.
+    """Yield the table of draws and derived values in blocks of ``size`` trials, with columns in the file's order.
 
-    Values depend neither on the size nor on the order in which draws are declared. Only designs are kept in memory as a
-    whole. Raises InputError if the number of trials does not suit a design or a table, or a derived value is not
+    Values depend neither on the size nor on the order in which draws are declared. Only designs are stored completely
+    in memory. Raises InputError if the number of trials does not suit a design or a table, or if a derived value is not
     finite.
     """
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
@@ -103,8 +103,8 @@ def draw_table(campaign: CampaignDraws) -> DrawTable:
 def table_of(campaign: CampaignDraws, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
     """Return the table of these draws, arrays (trials,) by name, with the campaign's derived values and lookups.
 
-    ``trials`` are the numbers of the trials, by default all of the campaign. Raises InputError if a derived value is
-    not finite, or a lookup has fewer trials.
+    ``trials`` are the numbers of the trials, by default of all trials of the campaign. Raises InputError if a derived
+    value is not finite, or if a lookup has fewer trials.
     """
     numbers = range(campaign.trials) if trials is None else trials
     names = input_names(campaign)
@@ -145,7 +145,7 @@ class CountedDraws:
         return self
 
     def of_part(self, trials: range) -> DrawTable:
-        """Return the samples of consecutive trials, renumbered from 0. Raises InputError if one is not finite."""
+        """Return the samples of consecutive trials, renumbered from 0. Raises InputError if a sample is not finite."""
         first = trials.start // BLOCK
         blocks = [self._block(block) for block in range(first, -(-trials.stop // BLOCK))]
         rows = slice(trials.start - first * BLOCK, trials.stop - first * BLOCK)

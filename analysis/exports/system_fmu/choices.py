@@ -98,9 +98,7 @@ class Preparation:
         return SlotChoice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
     def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
-        """Return the values of the option `set` for these candidates, without values SLOT.CANDIDATE.PARAMETER of
-        others.
-        """
+        """Return the values of the option `set`, without values SLOT.CANDIDATE.PARAMETER of other candidates."""
         chosen = {}
         for name, number in self.options.set.items():
             slot, _, inside = name.partition(".")
@@ -186,9 +184,7 @@ def _check(prepared: PreparedSystem) -> None:
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
-    """Return the number (from 1) of a slot's default candidate: the FMU used by the system, or 1 if it is no
-    candidate.
-    """
+    """Return the number (from 1) of a slot's default candidate: the FMU in the system if it is one, else 1."""
     requested = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
@@ -197,8 +193,7 @@ def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem,
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:
-    """Return the connectors through which a parameter gets its value, from the outermost connector with a value
-    inwards.
+    """Return the connectors through which a parameter gets its value, from the outermost with a value inwards.
 
     The last connector is ``target``. The chain is empty if no connector before it has a value.
     """

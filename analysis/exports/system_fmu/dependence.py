@@ -33,8 +33,7 @@ def fault_inputs(connector: str) -> list[str]:
 
 
 def _follow(prepared: PreparedSystem, start: str) -> list[str]:
-    """Return the signals that propagate the value at ``start``: the signal itself, or all outputs of a parameter's
-    component.
+    """Return the signals that propagate the value at ``start``: itself, or all outputs of a parameter's component.
 
     There are none for a parameter if its component steps before its inputs are updated.
     """

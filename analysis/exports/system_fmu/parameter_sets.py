@@ -20,8 +20,9 @@ RESOURCES = "resources/"
 
 @dataclass(frozen=True)
 class ConvertedSets:
-    """Converted parameter sets: ``files`` by name in the FMU; ``unfit`` says, one line each, why others cannot be
-    converted.
+    """Converted parameter sets, ``files`` by name in the FMU.
+
+    ``unfit`` states why other sets cannot be converted, one line each.
     """
 
     files: Mapping[str, bytes]

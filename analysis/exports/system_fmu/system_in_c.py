@@ -162,9 +162,7 @@ def _renewal(statements: ChoiceStatements, phase: int) -> list[str]:
 
 
 def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
-    """Return the system parameters that are signals, with their chains of connectors from the connector with the
-    value.
-    """
+    """Return the system parameters that are signals, each with its chain of connectors from the one with the value."""
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
     names = [node.name for node in nodes if node.component is None and node.kind in PARAMETERS]

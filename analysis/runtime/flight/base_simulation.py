@@ -106,8 +106,7 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def queue_run(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
-        """Announce the values and faults of a coming `run`, so that it may start earlier; at most two runs are
-        pending.
+        """Announce the values and faults of a coming `run`, so that it may start earlier; at most two runs are pending.
 
         The arrays of the last flight are unchanged by the first announcement; the second may overwrite them.
         """
@@ -127,8 +126,7 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """Continue the simulation from communication point ``first`` to ``last``; return rows ``first`` + 1 to
-        ``last``.
+        """Simulate from communication point ``first`` on to ``last``; return rows ``first`` + 1 to ``last``.
 
         With ``first`` = -1 the simulation restarts, and row 0 is included. ``excitation`` [r, e] is added to the e
         excited connectors at the r communication points after ``first``. ``last`` may be beyond the stop time if the
@@ -144,9 +142,7 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def abort(self, why: str) -> bool:
-        """End a simulation in another thread that does not reach a communication point; return False if this is
-        impossible.
-        """
+        """End a simulation in another thread between communication points; return False if this is impossible."""
 
     @abstractmethod
     def memory(self) -> BaseMemory[Any]:

@@ -167,10 +167,9 @@ def describe_outcome(
 def describe_termination(
     time: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> tuple[str, str]:
-    """Return status and message of a simulation that an FMU ended at ``time`` (s) in its step from ``begin`` to
-    ``end`` (s).
+    """Return status and message of a simulation that an FMU ended at ``time`` (s) during its step.
 
-    The status is ``failed`` if ``time`` is outside the step.
+    The step is from ``begin`` to ``end`` (s). The status is ``failed`` if ``time`` is outside the step.
     """
     allowed = load_library().perilune_time_allowance(begin, end)
     if not begin - allowed <= time <= end + allowed:  # also rejects NaN

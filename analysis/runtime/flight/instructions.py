@@ -219,8 +219,9 @@ def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence
 
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
-    """Write the instructions of the last row when an FMU ends the simulation: its outputs, passed on to all
-    connectors.
+    """Write the instructions of the last row when an FMU ends the simulation.
+
+    Its outputs are read and passed on to all connectors.
     """
     instructions.begin()
     instructions.read(component)

@@ -1,6 +1,4 @@
-"""Complete memory of a system in this process, which can be saved, restored, read and changed at a communication
-point.
-"""
+"""Complete memory of a system in this process, to be saved, restored, read and changed at a communication point."""
 
 from __future__ import annotations
 

@@ -203,9 +203,7 @@ class Parameters:
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:
-        """Note that an FMU refuses parameters in initialisation mode; they are only set before it, and still read
-        back.
-        """
+        """Note that an FMU refuses parameters in initialisation mode: they are set before it only, but read back."""
         _set_once.add(self._network.fmus[component].digest)
 
     def blank(self) -> arrays.Settings:

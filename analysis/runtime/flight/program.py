@@ -60,8 +60,7 @@ def build_program(
     injections: Sequence[Injection],
     additional: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
-    """Return the loop's arrays, its additional arrays for FMI 3.0 (or None), the writer of instructions, and the
-    layout.
+    """Return the loop's arrays, additional arrays for FMI 3.0 (or None), the writer of instructions, and the layout.
 
     ``requested`` names the signals to record (None: all exchanged ones), and ``additional`` names further signals.
     Outputs are read only if they are connected or recorded, other variables only if they are named.

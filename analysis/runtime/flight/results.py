@@ -82,8 +82,7 @@ class Flight:
     message: str
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Return the signal ``component.variable``, of shape [n], or the vector of that name with k elements, of shape
-        [n, k].
+        """Return the signal ``component.variable``, of shape [n], or a vector of k elements by its name, [n, k].
 
         Raises KeyError, which suggests the most similar names.
         """

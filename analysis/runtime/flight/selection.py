@@ -50,8 +50,7 @@ class Selection:
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> SystemSettings:
-        """Return the system's settings, extended by all varied parameters and all parameters that change during
-        simulation.
+        """Return the system's settings, with all varied parameters and all that change during simulation.
 
         Added parameters have their start values.
         """
@@ -67,9 +66,7 @@ class Selection:
         return replace(prepared.settings, variables=variables)
 
     def injections(self, step: float) -> list[Injection]:
-        """Return the injections of all faults, followed by those of excitations; ``step`` is the communication step
-        (s).
-        """
+        """Return the injections of all faults, then of all excitations; ``step`` is the communication step (s)."""
         excitations = [of_excitation(name, column) for column, name in enumerate(self.excited)]
         return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
 

@@ -108,10 +108,10 @@ def _check_variable(variable: etree._Element, label: str) -> None:
 
 
 def _starts(variable: etree._Element) -> list[str]:
-    """Return the declared start values: a single value, or a value for each element. Values of texts are child
-    elements.
+    """Return the declared start values: a single value, or a value for each element.
 
-    The FMU Manipulation Toolbox declares the start values of all arrays as child elements.
+    Values of texts are child elements. The FMU Manipulation Toolbox declares the start values of all arrays as child
+    elements.
     """
     texts = [each.get("value", "") for each in variable.iterfind("Start")]
     if variable.tag in TEXTS:

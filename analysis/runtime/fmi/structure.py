@@ -1,6 +1,4 @@
-"""Structural parameters of a component of FMI 3.0, which determine array sizes and are read before variables are
-named.
-"""
+"""Structural parameters of a component of FMI 3.0, which determine array sizes and so the names of its variables."""
 
 from __future__ import annotations
 

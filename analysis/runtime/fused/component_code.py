@@ -96,8 +96,7 @@ def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str
 
 
 def _rename(text: str, prefix: str) -> str:
-    """Return the text, enclosed by lines that define a macro with the prefixed name for each of its names, and
-    undefine it.
+    """Return the text between lines that define, and undefine, a macro with the prefixed name for each of its names.
 
     The preprocessor renames, because the C code also joins names (``py_##name``). Macros that the text defines are
     undefined, too.

@@ -115,9 +115,7 @@ def _compile() -> Path:
 
 
 def _check(library: ctypes.CDLL) -> None:
-    """Compare the declarations in Python with those in C. Raises ImportError if they differ, which is a programming
-    error.
-    """
+    """Compare the declarations in Python and in C. Raises ImportError if they differ, a programming error."""
     numbers = enumerators("codes.h") | enumerators("run.h")
     differing = [name for name, number in numbers.items() if getattr(codes, name, None) != number]
     sizes = [ctypes.sizeof(structures()[name]) for name in ("Run", "RunGroup")]

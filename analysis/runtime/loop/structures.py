@@ -32,8 +32,10 @@ SIZES = {"_rows": 0, "_columns": 1}  # suffix of a member: axis of the array
 
 
 class Member(NamedTuple):
-    """Member of a structure: the dtype of the array to which it points, or None; and the axis whose length it
-    contains, or None.
+    """Member of a structure.
+
+    ``dtype`` is the dtype of the array to which the member points, and ``axis`` the axis whose length it contains; both
+    may be None.
     """
 
     name: str

@@ -1,5 +1,4 @@
-"""Channels between processes: sockets with pickled orders and requests, and length-limited frames for children's
-answers.
+"""Channels between processes: sockets for pickled orders and requests, and limited frames for children's answers.
 
 Nothing that a child sends is executed; its frames may be malformed.
 """

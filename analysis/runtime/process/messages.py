@@ -40,9 +40,7 @@ class SystemTask:
 
 @dataclass(frozen=True)
 class ResetTask:
-    """Task to test how an FMU can be restored, with ``formats`` as in `SystemTask` and ``with_reset`` as in
-    `try_renewals`.
-    """
+    """Task to test how an FMU can be restored; for ``formats`` see `SystemTask`, for ``with_reset`` `try_renewals`."""
 
     formats: bool
     with_reset: bool
@@ -127,8 +125,7 @@ class ChildExit:
 
 @dataclass(frozen=True)
 class Simulate:
-    """Request to simulate between two communication points, with the values and faults that changed since the last
-    request.
+    """Request to simulate between two communication points, with the values and faults that have changed.
 
     ``recorder`` is the number of one of the child's recorders.
     """

@@ -20,8 +20,9 @@ def may_load_here(prepared: PreparedSystem) -> bool:
 
 
 def open_simulation(prepared: PreparedSystem, *, in_child: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
-    """Return a simulation with these `Choices`, in a child if the FMUs require it or if ``in_child``. Raises
-    InputError.
+    """Return a simulation with these `Choices`; it is in a child if the FMUs require it, or if ``in_child``.
+
+    Raises InputError.
     """
     in_child = in_child or not may_load_here(prepared)
     check_fused(prepared, in_child=in_child)

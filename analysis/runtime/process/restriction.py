@@ -1,5 +1,4 @@
-"""Restrictions of a child: a memory limit and, with foreign FMUs, limited access to files, network and other
-processes.
+"""Restrictions of a child: a memory limit and, with foreign FMUs, limited access to files, network and other processes.
 
 Only Linux offers such restrictions without administrator rights: Landlock for files and signals (Linux 5.13 and later),
 seccomp for system calls. Processes that the child starts inherit both. Reading is not restricted.
@@ -90,8 +89,9 @@ def find_missing() -> tuple[str, ...]:
 
 
 def restrict(restriction: Restriction) -> None:
-    """Restrict this process and all processes that it starts, irrevocably, as far as `find_missing` allows. Raises
-    OSError.
+    """Restrict this process and all processes that it starts, irrevocably. Raises OSError.
+
+    Restrictions in `find_missing` are omitted.
     """
     if sys.platform != "linux":
         return

@@ -1,6 +1,4 @@
-"""System calls of x86_64, a platform of FMI 2.0, that are denied to foreign code, and the seccomp filter that denies
-them.
-"""
+"""System calls of x86_64, a platform of FMI 2.0, denied to foreign code, and the seccomp filter that denies them."""
 
 from __future__ import annotations
 
@@ -112,9 +110,7 @@ def check_result(result: int) -> int:
 
 
 def _instructions(refused: Sequence[int], rules: Iterable[Rule], process: int) -> list[bytes]:
-    """Return a filter that denies calls of other ABIs, the calls ``refused``, and calls with arguments against
-    ``rules``.
-    """
+    """Return a filter that denies calls of other ABIs, calls in ``refused``, and arguments against ``rules``."""
     code = [
         instruction(LOAD, ARCHITECTURE),
         instruction(IS_EQUAL, AUDIT_ARCH_X86_64, 1, 0),

@@ -62,9 +62,7 @@ class SharedRecorder(FlightRecorder):
         return self.outcome.tobytes() + self.phase.tobytes()
 
     def count_rows(self, first: int, every: int) -> int:
-        """Return the number of rows recorded so far by a simulation from point ``first`` that records every
-        ``every``-th row.
-        """
+        """Return the number of rows that a simulation from point ``first`` has recorded, one in ``every``."""
         return min(max(-(-(self.point - max(first, -1) - 1) // every), 0), self.times.size)
 
     def component_in_phase(self, prepared: PreparedSystem) -> str:

@@ -147,9 +147,7 @@ class ProcessSimulation(BaseSimulation):
         self._announced.clear()
 
     def _send(self, scenario: Scenario) -> tuple[Scenario, int]:
-        """Let the child simulate a scenario after the announced ones; return the scenario with the number of its
-        recorder.
-        """
+        """Let the child simulate a scenario after the announced ones; return it with its recorder's number."""
         if scenario.first < 0:
             self._prepare_process()
         after = self._announced[-1][1] if self._announced else self.process.turn

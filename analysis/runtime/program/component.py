@@ -16,14 +16,13 @@ class FailedError(Exception):
 
 
 class NonFiniteError(Exception):
-    """Number that is not finite, or out of range of its target's type; ends the simulation with the status
-    ``nonfinite``.
-    """
+    """Number that is not finite or exceeds its target's type; ends the simulation with the status ``nonfinite``."""
 
 
 class TerminationError(Exception):
-    """Request of a ``component`` to end the simulation at ``time`` (s), with the status ``terminated`` and one last
-    row.
+    """Request of a ``component`` to end the simulation at ``time`` (s), with one last row.
+
+    The status is then ``terminated``.
     """
 
     def __init__(self, component: str, time: float) -> None:
@@ -77,8 +76,7 @@ class ComponentInstance(ABC):
 
     @abstractmethod
     def step(self, begin: float, size: float, end: float) -> None:
-        """Advance by ``size`` (s) from ``begin`` to ``end`` (s), which are subject to rounding, with the current
-        inputs.
+        """Advance by ``size`` (s) from ``begin`` to ``end`` (s, both subject to rounding) with the current inputs.
 
         Raises TerminationError, FailedError.
         """

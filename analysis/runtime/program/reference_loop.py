@@ -47,9 +47,7 @@ class ReferenceLoop:
             return "nonfinite" if isinstance(error, NonFiniteError) else "failed"
 
     def initialise(self) -> None:
-        """Initialise the components, each after the components that it reads; inputs from later ones have start
-        values.
-        """
+        """Initialise each component after the components that it reads; inputs from later ones have start values."""
         for component in self.components.values():
             component.initialise(self.system.start, self.system.start + self.system.steps * self.system.step)
         order = self.system.schedule.initial_order

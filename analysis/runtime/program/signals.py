@@ -99,9 +99,7 @@ class Signals:
         return all(each is None or each in known for each in origins)
 
     def _source(self, node: Node) -> Sample:
-        """Return the value of a connection's source: an output, or a system connector's value from that connector's
-        source.
-        """
+        """Return the value of a connection's source: an output, or the value at the source of a system connector."""
         link = self._network.driver.get(node.name)
         if node.component is not None:
             return self.values[node.name]

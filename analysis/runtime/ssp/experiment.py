@@ -22,9 +22,7 @@ OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github
 
 @dataclass(frozen=True)
 class StepSettings:
-    """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step, if there is
-    one.
-    """
+    """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step, or None."""
 
     step: float | None = None
     algorithm: str | None = None

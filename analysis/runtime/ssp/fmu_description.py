@@ -68,9 +68,7 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def require_attributes(element: etree._Element, names: Sequence[str], label: str, where: str) -> None:
-    """Raise InputError, at ``where``, if an attribute of an element is missing, or is empty where this is not
-    permitted.
-    """
+    """Raise InputError, at ``where``, if an attribute of an element is missing, or empty where not permitted."""
     for name in names:
         text = element.get(name)
         if text is None:

@@ -129,9 +129,7 @@ def apply_mapping(
 def read_parameter_file(
     data: bytes, file: str, notes: Notes = None, remarks: list[str] | None = None
 ) -> list[Assignment]:
-    """Return the values in an .ssv document; append a line to ``remarks`` for each of its signatures. Raises
-    InputError.
-    """
+    """Return the values in an .ssv document; add a line to ``remarks`` for each signature. Raises InputError."""
     root = read_document(data, "ssv", file)
     _remark(remarks, root, file)
     return read_parameter_set(root, file, notes)

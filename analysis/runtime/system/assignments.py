@@ -36,8 +36,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> SystemSettings:
-    """Return all values of a system: its bindings from the inside out, then ``assignments``; later values take
-    precedence.
+    """Return all values of a system: its bindings from the inside out, then ``assignments``; later ones override.
 
     Raises InputError for a name that matches nothing (unless allowed), for a value that does not fit its variable, and
     for declared inputs without connection and value (unless they keep their start values).

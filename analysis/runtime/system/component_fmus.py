@@ -119,9 +119,7 @@ class ComponentFmus:
         ]
 
     def refuse_unfit(self, error: InputError) -> None:
-        """Replace an error in the connections of a component by a clearer error if an option names the component's
-        FMU.
-        """
+        """Replace an error in the connections of a component by a clearer one if an option names its FMU."""
         slot = next((slot for slot in self._used if error.element.startswith(f"{slot}.")), None)
         if slot is not None and error.file == self.description.file:
             raise unfit(slot, self.options.use[slot], self._used[slot], error) from error

@@ -26,8 +26,7 @@ class Origin(StrEnum):
 
 @dataclass(frozen=True)
 class Feedthrough:
-    """Direct dependencies by component and output: ``stepping`` orders the steps, ``initial`` orders the
-    initialisation.
+    """Direct dependencies by component and output; ``stepping`` orders the steps, ``initial`` the initialisation.
 
     ``undeclared`` lists, in the order of the SSD, the components with an output whose dependencies are stated neither
     by the FMU, nor by the SSD or a user. Such a component is stepped with inputs of t_n, and initialised as if its

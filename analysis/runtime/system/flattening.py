@@ -152,9 +152,7 @@ def _end(network: Network, path: str, system: SystemElement, point: Point, conne
 
 
 def _signal(network: Network, path: str, reference: DictionaryReference, signal: str, where: str) -> Node:
-    """Return the node of a dictionary's signal; the dictionary is the nearest one of that name in the surrounding
-    systems.
-    """
+    """Return the node of a dictionary's signal; the dictionary is the nearest of its name in surrounding systems."""
     level = path
     while True:
         system = network.systems[level]
@@ -192,8 +190,7 @@ def _connect(network: Network, path: str, system: SystemElement, connection: Con
 def find_direction(
     network: Network, path: str, system: SystemElement, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
-    """Return source and target of a connection with their nodes, since SSP does not define the direction of a
-    connection.
+    """Return source and target of a connection with their nodes, since SSP does not define its direction.
 
     ``path`` is the path of the ``system`` that contains the connection. Raises InputError.
     """

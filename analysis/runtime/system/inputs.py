@@ -236,9 +236,7 @@ def drive_inputs(
 
 
 def _is_continuous(network: Network, name: str) -> bool:
-    """Return True if an input is interpolated: a continuous Real of an FMU, or a system's input that only drives such
-    Reals.
-    """
+    """Return True if an input is interpolated: a continuous Real, or a system's input that only drives such Reals."""
     for component, fmu in network.fmus.items():
         if name.startswith(f"{component}."):
             variable = fmu.variables.get(name.removeprefix(f"{component}."))
@@ -275,8 +273,7 @@ def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, aft
 
 
 def hold(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """Return a discrete input at ``points`` (s); each value is held from its own time on, as in FMPy's
-    `Input.interpolate`.
+    """Return a discrete input at ``points`` (s): values are held from their times on, as in FMPy's `Input.interpolate`.
 
     If ``after_event``, a value is used at its own time already, else only after it. The first value is used at the
     first time in any case.

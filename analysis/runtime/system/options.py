@@ -131,9 +131,7 @@ class SystemOptions(Trust, Layer):
         return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
     def merge(self, **layers: Layer) -> SystemOptions:
-        """Return these options, which come from the command line, merged with options of other sources by names in
-        `LAYERS`.
-        """
+        """Return these options of the command line, merged with options of other sources by names in `LAYERS`."""
         remaining: dict[str, Layer] = {"command_line": self, **layers}
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
         if remaining:

@@ -69,8 +69,9 @@ class PreparedSystem:
 
     @property
     def printers(self) -> list[str]:
-        """Components that may print in a child process: foreign FMUs and FMUs with external state or, if there are
-        none, all.
+        """Components that may print in a child process.
+
+        These are foreign FMUs and FMUs with external state or, if there are none, all components.
         """
         fmus = self.network.fmus
         return [name for name, fmu in fmus.items() if not fmu.is_self_contained] or list(fmus)

@@ -23,9 +23,7 @@ GAINS = SYSTEMS / "entry_attitude"  # its parameter sets use the component name 
 
 @dataclass(frozen=True)
 class Retired:
-    """Replacement of a retired FMU: ``block`` with ``values`` of its parameters, or with the values of
-    ``parameter_set``.
-    """
+    """Replacement of a retired FMU: ``block`` with ``values`` of its parameters, or with those in ``parameter_set``."""
 
     block: str
     values: Mapping[str, SetValue] = field(default_factory=dict)

@@ -1,6 +1,4 @@
-"""Instructions for a component of FMI 2.0: calls for ranges of slots, or direct access to the memory of Perilune's
-FMUs.
-"""
+"""Instructions for a component of FMI 2.0: calls for ranges of slots, or direct access to memory of Perilune's FMUs."""
 
 from __future__ import annotations
 
@@ -68,8 +66,9 @@ class Fmi2Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs. The instructions from index ``begun`` on fill the slots; direct writes to memory may replace
-        them.
+        """Set all inputs.
+
+        The instructions from index ``begun`` on fill the slots; direct writes to memory may replace them.
         """
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             stretch = self._ranges[FUNCTION[name]]

@@ -25,8 +25,7 @@ class SlotRun(NamedTuple):
 def runs_in_memory(
     instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[SlotRun]:
-    """Return the contiguous runs of values with these value references (uint32); their slots are numbered from
-    ``first`` on.
+    """Return the contiguous runs of values with these value references (uint32), with slots numbered from ``first``.
 
     The list is empty if the FMU does not disclose the address of every value.
     """

@@ -1,6 +1,4 @@
-"""Slots of a component of FMI 2.0; variables of one type and direction are contiguous, so that one call transfers
-them.
-"""
+"""Slots of a component of FMI 2.0: one call transfers contiguous slots of variables of one type and direction."""
 
 from __future__ import annotations
 

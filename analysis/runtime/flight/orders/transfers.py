@@ -56,9 +56,7 @@ class TransferTable:
         self.references: list[int] = []
 
     def add(self, variables: Sequence[ScalarVariable], first: int) -> int:
-        """Add a transfer of variables of one representation, with elements numbered from ``first`` on; return its
-        number.
-        """
+        """Add a transfer of variables of one representation, with elements from ``first`` on; return its row."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]

@@ -21,8 +21,9 @@ EnumerationsOf = Callable[[str], Collection[str]]
 
 @dataclass(frozen=True)
 class BoundSet:
-    """Parameter set file bound by a description, and the arrays to which its names may refer; no arrays if it is
-    mapped.
+    """Parameter set file bound by a description, with the arrays to which its names may refer.
+
+    There are no arrays if the set is mapped.
     """
 
     source: str

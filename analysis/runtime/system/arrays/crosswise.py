@@ -1,6 +1,4 @@
-"""Elements of two vectors that are connected in a different order, although other elements are connected index by
-index.
-"""
+"""Elements of two vectors connected in a different order, although other elements are connected index by index."""
 
 from __future__ import annotations
 

@@ -23,9 +23,7 @@ class FaultColumns:
 
 @dataclass(frozen=True)
 class FlightTable:
-    """Inputs of n simulations: values of varied parameters by name, [n] each, and all faults of the simulation in
-    order.
-    """
+    """Inputs of n simulations: values of varied parameters by name, [n] each, and all faults in order."""
 
     flights: int
     values: Mapping[str, np.ndarray]

@@ -70,9 +70,7 @@ def _settle_differences(network: Network) -> None:
 
 
 def _group(neighbours: dict[str, list[Node]], first: str) -> tuple[set[str], set[bool]]:
-    """Return the connectors without an FMU that are connected to ``first``, and the relativeQuantity of adjacent
-    variables.
-    """
+    """Return the connectors without an FMU connected to ``first``, and the relativeQuantity of adjacent variables."""
     group, kinds, pending = {first}, set[bool](), [first]
     while pending:
         for node in neighbours[pending.pop()]:
