@@ -13,7 +13,7 @@ BYTES = "Annotations"  # element whose comments and white space are significant
 
 
 def canonical(element: etree._Element) -> bytes:
-    """Return an element in canonical form: children of UNORDERED sorted, comments and spaces removed except in BYTES."""
+    """Return an element in canonical form: UNORDERED children sorted, comments and spaces removed except in BYTES."""
     return etree.tostring(_sort(element), method="c14n", with_comments=True)
 
 

@@ -96,7 +96,7 @@ def _take_boolean(to: Statements, row: Instruction) -> list[str]:
 
 
 def _take_whole(to: Statements, row: Instruction) -> list[str]:
-    """Return statements that read integers, and the condition of the next instruction, by which the FMU rejects them."""
+    """Return statements that read integers, and a condition for the next instruction, in which the FMU rejects them."""
     reads = [f"values[{row.first + i}] = (double){to.variable(row, 'int64_t', i)};" for i in range(row.size)]
     fits = " && ".join(
         f"{variable} >= INT32_MIN && {variable} <= INT32_MAX"

@@ -11,7 +11,7 @@ from .structures import Filled
 
 
 class Loop:
-    """Loop of a simulation; ``under_way`` is locked during a run, even if its caller has given up waiting.
+    """Loop of a simulation; ``under_way`` is locked during a run, even if its caller no longer waits.
 
     Unless FMUs are ``self_contained``, the default floating-point environment is restored after each run, however it
     ends.
