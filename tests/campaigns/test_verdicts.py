@@ -166,14 +166,14 @@ def test_the_summary_has_them(summary):
 
 def test_lines_name_variant_requirement_and_figures(summary):
     assert unmet_lines(summary) == [
-        "odd: requirement near: miss < 1, 99.87 % probability at 90 % confidence: undecided: 1 of 2000 flights "
-        "fail it; 991, 2093 or 3138 additional trials with 0, 1 or 2 further failures would meet it",
-        "bad: requirement near: miss < 1, 99.87 % probability at 90 % confidence: not met: 300 of 2000 flights fail it",
+        "odd: requirement near: miss < 1, 99.87 % probability at 90 % confidence: undecided: 1 of 2000 trials "
+        "failed; 991, 2093 or 3138 additional trials with 0, 1 or 2 further failures would meet it",
+        "bad: requirement near: miss < 1, 99.87 % probability at 90 % confidence: not met: 300 of 2000 trials failed",
     ]
 
 
 def test_a_metric_that_no_flight_has_is_named():
-    """As of an instant that is never reached: it read `60 of 60 flights fail it`."""
+    """As of an instant that is never reached: it read `60 of 60 trials failed`."""
     requirements = [NEAR, HEAVY]
     never = summarise({"never": columns(np.full(60, np.nan))}, requirements=requirements)
     assert unmet_lines(never)[0].endswith(": not met: miss is evaluated in none of 60 flights")
@@ -182,7 +182,7 @@ def test_a_metric_that_no_flight_has_is_named():
     assert to_json(never)["never"]["requirements"]["near"]["unevaluated"] == ["miss"]
     assert never["never"].requirements["heavy"].unevaluated is None
     single = summarise({"single": columns([*[np.nan] * 59, 2.0])}, requirements=requirements)
-    assert unmet_lines(single)[0].endswith("not met: 60 of 60 flights fail it")
+    assert unmet_lines(single)[0].endswith("not met: 60 of 60 trials failed")
     assert "unevaluated" not in to_json(single)["single"]["requirements"]["near"]
 
 

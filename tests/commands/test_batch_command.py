@@ -92,12 +92,12 @@ condition = "plant.initial_position[2] > 0"
     ("limit", "share", "status", "words"),
     [
         (1e6, 75, 0, ""),
-        (1e6, 99.87, 1, "99.87 % probability at 90 % confidence: undecided: 0 of 10 flights fail it; 1761, "),
+        (1e6, 99.87, 1, "99.87 % probability at 90 % confidence: undecided: 0 of 10 trials failed; 1761, "),
         (
             0,
             50,
             1,
-            "position_error < 0, 50 % probability at 90 % confidence: not met: 10 of 10 flights fail it\n",
+            "position_error < 0, 50 % probability at 90 % confidence: not met: 10 of 10 trials failed\n",
         ),
     ],
 )
@@ -314,5 +314,5 @@ def test_too_many_groups_are_refused_before_anything_flies(grouped, tmp_path, ca
     assert main([*of_campaign(tmp_path, "--output", str(tmp_path / "out")), "--trials", "101"]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert f"{tmp_path / 'c.toml'}: group.by: at least 101 different values" in error
+    assert f"{tmp_path / 'c.toml'}: group.by: has at least 101 different values" in error
     assert not (tmp_path / "out").exists()
