@@ -49,7 +49,7 @@ ROOTS = (PageDocument, Query, Counts, TrialEntry)
 
 
 class UntranslatableError(TypeError):
-    """The type of a member has no counterpart in TypeScript."""
+    """Error for a member whose type has no counterpart in TypeScript."""
 
 
 class InterfaceMember(NamedTuple):

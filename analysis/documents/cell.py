@@ -48,7 +48,7 @@ class Percentage(NamedTuple):
 
 
 class Interval(NamedTuple):
-    """The two ends of an interval in one cell; at most one of them is None."""
+    """An interval in one cell; at most one of its ends is None, which means that it has no limit there."""
 
     low: Quantity | Percentage | DisplayedNumber | None
     high: Quantity | Percentage | DisplayedNumber | None

@@ -26,7 +26,7 @@ DETAILS = ("status", "success")  # columns of a trial in addition to numbers
 
 
 class StoppedError(Exception):
-    """The server has stopped and no longer needs the data being read."""
+    """Error that ends the reading of data when the server has stopped."""
 
 
 @dataclass(frozen=True)

@@ -30,9 +30,9 @@ def show_progress() -> Iterator[Tell]:
 
 @contextmanager
 def listen(tell: Tell) -> Iterator[Connection]:
-    """Yield a pipe for the steps of worker processes, each of which calls `begin` with it and ends in the block.
+    """Yield a pipe for the steps of worker processes, each of which calls `begin` with it and exits within the block.
 
-    It has no lock, which a killed worker would keep: writes of few bytes are atomic.
+    The pipe has no lock, which a killed worker would not release; writes of a few bytes are atomic.
     """
     reader, writer = get_context("loky").Pipe(duplex=False)
 
@@ -51,7 +51,7 @@ def listen(tell: Tell) -> Iterator[Connection]:
 
 
 def begin(pipe: Connection) -> None:
-    """Send the steps of a worker process through a pipe."""
+    """Send all further steps of this worker process through a pipe."""
     global _pipe
     _pipe = pipe
 

@@ -23,7 +23,7 @@ export interface FlightColumns<Column = number> {
   columns: Column[];
 }
 
-// Recorded simulations over time.
+// Recorded simulations over time: panels with lines, and the columns of each simulation.
 export interface RecordedDocument<Column = number> {
   panels: FlightsPanel[];
   flights: FlightColumns<Column>[];

@@ -40,7 +40,7 @@ def label_with_unit(name: str, unit: str | None) -> str:
 
 
 def number(value: Any, digits: int = 4, decimals: int | None = None) -> str:
-    """Return a number with ``digits`` significant digits, in exponential form from a million on; None is a dash.
+    """Return a number with ``digits`` significant digits, and an exponent if it is large; None is a dash.
 
     ``decimals`` sets the number of decimals instead, for numbers of the order of 1.
     """

@@ -36,7 +36,7 @@ OPTIONS = {
 
 
 class LayoutError(Exception):
-    """The engine failed to lay out a graph; the text states why."""
+    """Failure of the engine to lay out a graph; the message states the reason."""
 
 
 class Engine:

@@ -20,7 +20,8 @@ class Side(StrEnum):
 class PortKey(NamedTuple):
     """A port, identified by the path of its block and its name; a vector ``x`` is named ``x[]``, unlike any scalar.
 
-    If several ports lead to one, such as elements of a vector or terms of a sum, each has a separate ``entry``.
+    If several ports lead to the same port, such as elements of a vector or terms of a sum, each has a separate
+    ``entry``.
     """
 
     block: str

@@ -23,7 +23,7 @@ TRUTHS = {"true": True, "false": False}
 
 
 class MissingSignalError(Exception):
-    """A substituted FMU lacks a signal of a figure."""
+    """Error for a signal of a figure that a substituted FMU lacks."""
 
 
 class SignalReader(AnnotationReader):

@@ -1,4 +1,4 @@
-"""Document of the comparison of two runs: what was compared, and what differs where."""
+"""Document of the comparison of two runs: the compared signals, their differences, and the times of these."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ class _Loop:
         return complex(np.log(self.linear(upper) / self.linear(lower))) / (upper - lower)
 
     def amplitudes(self, least: float, largest: float) -> np.ndarray:
-        """Return ascending amplitudes for abs(L) from ``least`` to ``largest``, with kinks and dense after each."""
+        """Return ascending amplitudes for abs(L) from ``least`` to ``largest``: kinks, with a dense grid above each."""
         kinks = self.element.kinks(self.parameters)
         output = self.element.output(self.parameters)
         last = self.element.farthest(self.parameters)

@@ -164,7 +164,7 @@ def _roots(
     values: np.ndarray,
     crossing: Callable[[float, float], bool],
 ) -> list[float]:
-    """Return the zeros of ``function`` between points of different sign, without points within rounding of zero."""
+    """Return the zeros of ``function`` between points of different sign; points within rounding of zero are ignored."""
     retained = np.abs(values) > _ROUNDING
     frequency, values = frequency[retained], values[retained]
     roots = []

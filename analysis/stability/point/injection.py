@@ -184,7 +184,7 @@ class Injector:
         return {name: values[self.bench.origin + 1 :] for name, values in signals.items()}
 
     def _answer(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return input and return signal at the channel's samples, with the undisturbed simulation subtracted."""
+        """Return the input and the return signal at the channel's samples, minus the undisturbed simulation."""
         channel, base = self.channel, self._simulate_undisturbed()
         added = np.repeat(samples, channel.period)
         mine = channel.excitation(base, added)

@@ -68,7 +68,7 @@ def _crosses(positions: np.ndarray, size: float, colour: str) -> str:
 
 
 def _shapes(frame: Frame, positions: np.ndarray, outline: Sequence[Sequence[float]], size: float, paint: str) -> str:
-    """Return an outline at all positions."""
+    """Return copies of an outline at all positions."""
     strokes = [np.rint(10.0 * size * np.reshape(stroke, (-1, 2)) * (1.0, -1.0)).astype(np.int64) for stroke in outline]
     moves = [in_tenths(np.diff(stroke, axis=0).ravel().tolist()) for stroke in strokes]
     ends = ["z" if np.array_equal(stroke[0], stroke[-1]) else "" for stroke in strokes]

@@ -62,7 +62,7 @@ def _stroke(points: np.ndarray) -> str:
 
 
 def in_tenths(tenths: Iterable[int]) -> str:
-    """Return tenths as decimals; a minus sign also separates numbers."""
+    """Return numbers of tenths as decimal numbers in the syntax of paths, in which a minus sign is a separator, too."""
     return "".join(map(_number, tenths)).strip()
 
 

@@ -52,7 +52,7 @@ class FlightColumns(TypedDict):
 
 
 class RecordedDocument(TypedDict):
-    """Recorded simulations over time."""
+    """Recorded simulations over time: panels with lines, and the columns of each simulation."""
 
     panels: list[FlightsPanel]
     flights: list[FlightColumns]

@@ -38,7 +38,7 @@ def verdict_nodes(table: VerdictTable, styles: Mapping[str, Look], anchors: Anch
 
 
 def unjudged_node() -> Text:
-    """Return that a campaign without requirements has no verdict, and how to declare one."""
+    """Return the statement that a campaign without requirements has no verdict, and how to declare requirements."""
     return Text([
         VerdictCell("Not judged", "not-applicable"),
         ": no requirements declared; see Requirements in docs/campaigns.md",

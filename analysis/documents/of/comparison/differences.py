@@ -32,7 +32,10 @@ class Sentence(NamedTuple):
 
 
 class Sentences(NamedTuple):
-    """A sentence for each pair that differs, pairs with the reference apart; ``tested`` lists what was compared."""
+    """Sentences on the pairs that differ, separately for pairs with the reference.
+
+    ``tested`` lists the compared quantities.
+    """
 
     first: list[Sentence]
     others: list[Sentence]

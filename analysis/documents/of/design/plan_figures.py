@@ -186,7 +186,10 @@ def path_chart(
 
 
 def _arrows(path: PlannedPath, rows: np.ndarray, factors: tuple[float, float]) -> list[charts.Curve]:
-    """Return thrust arrows at equal intervals of time, with true angles on any scale; least thrust is short."""
+    """Return thrust arrows at equal intervals of time, at true angles on any scale.
+
+    Lengths are proportional to the throttle, with a minimum that keeps arrows at low throttle visible.
+    """
     times = (np.arange(ARROWS) + 0.5) * path.duration / ARROWS
     interval = np.minimum(np.searchsorted(path.time, times, side="right") - 1, path.throttle.size - 1)
     angles, throttles = rows[2][interval], np.maximum(path.throttle[interval], 0.25)

@@ -1,4 +1,4 @@
-"""Signals of a run over time: on its page a panel for each, states and commands first; or signals chosen by name."""
+"""Signals of a run over time: on its page a panel for each, states and commands first; elsewhere signals by name."""
 
 from __future__ import annotations
 

@@ -167,7 +167,7 @@ def _sections(result: FlightResult, context: RunContext, groups: Sequence[Figure
 
 
 def _scene(figures: Sequence[FigureDeclaration], result: FlightResult) -> Section | None:
-    """Return the section of the declared scene; None if there is none, and for a run without samples."""
+    """Return the section of the declared scene; None if no scene is declared, or for a run without samples."""
     declared = next((figure for figure in figures if isinstance(figure, SceneFigure)), None)
     view = None if declared is None else scene_view(declared, result)
     if declared is None or view is None:

@@ -119,7 +119,10 @@ def _axes(groups: Sequence[SignalGroup]) -> tuple[str, ...]:
 
 
 def _flat_views(paths: Sequence[np.ndarray], groups: Sequence[SignalGroup], time: np.ndarray) -> list[View]:
-    """Return plan view (elements 1 and 2) and side view (3 over the wider one); only the latter in a plane."""
+    """Return the plan view, unless the motion is in a plane, and the side view.
+
+    The plan view shows elements 1 and 2 of the position, the side view element 3 over the wider of these.
+    """
     axes, labels = _axes(groups), [group.label for group in groups]
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1

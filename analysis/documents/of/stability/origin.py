@@ -16,7 +16,7 @@ ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # 
 
 
 def origin_nodes(report: StabilityStudy) -> list[Node]:
-    """Return everything that the numbers of a study depend on."""
+    """Return the provenance of a study: all that its numbers depend on."""
     limits, hashes = limit_table(report), hash_table(report)
     parameters = [
         [f"{name} = ", numeral(value, digits=10)] for name, value in report.provenance.get("parameters", {}).items()

@@ -1,4 +1,4 @@
-"""Selection of a stability study's content for paper: everything for few loops, the essential figures for many."""
+"""Selection of a stability study's content for paper: all content for few loops, the essential figures for many."""
 
 from __future__ import annotations
 
@@ -20,7 +20,11 @@ FIRST = "Bode"  # kind of figure that every loop has
 
 @dataclass(frozen=True)
 class Paper:
-    """Selection for paper: ``kinds`` of figures to print; None: all, with tables of the loops with separate figures."""
+    """Selection for paper.
+
+    ``kinds`` are the kinds of figures to print. None selects all figures, and all tables of loops with separate
+    figures.
+    """
 
     kinds: tuple[str, ...] | None
 
@@ -30,8 +34,8 @@ class Paper:
         if self.kinds is None:
             return "Printed without the tables of loops whose figures are shown with another loop."
         return (
-            f"On paper, of each loop: {', '.join(self.kinds)}; classical and robust margins of those with figures of "
-            "their own. The screen has the other figures and tables."
+            f"On paper: {', '.join(self.kinds)} of each loop, and the classical and robust margins of loops with "
+            "separate figures. The screen shows the other figures and tables."
         )
 
     def mark_printed(self, figures: Sequence[Figure]) -> list[Figure]:

@@ -61,7 +61,7 @@ def point_table(points: Sequence[PointReport], parameters: Mapping[str, object])
 
 
 def _validity(point: PointReport, parameters: Mapping[str, object]) -> Cell:
-    """Return how long the linearisation is valid, of a frozen plan at most its time to go."""
+    """Return how long the linearisation is valid; for a frozen plan this is at most its time to go."""
     settings = {**parameters, **point.settings}
     times = [float(str(value)) for name, value in settings.items() if name.endswith(f".{FROZEN_TIME}")]
     frozen = min((time for time in times if time > 0.0), default=math.inf)

@@ -52,7 +52,7 @@ def sentences(*texts: str) -> list[Head]:
 
 
 def fold_long(table: Table, rows: str) -> Node:
-    """Return a table, folded if it is long; ``rows`` names what its rows are."""
+    """Return a table, folded if it is long; ``rows`` is a noun for its rows."""
     return Fold(f"All {len(table.rows)} {rows}", [table]) if len(table.rows) > LONG else table
 
 
@@ -77,7 +77,7 @@ def anchor(index: int) -> str:
 
 
 def link(report: StabilityStudy, subject: LoopReport | JointReport) -> Link | str:
-    """Return the name of a loop with a link to its article, or of channels, which have none."""
+    """Return the name of a loop with a link to its article, or of channels, which have no article."""
     index = next((index for index, loop in enumerate(report.loops) if loop is subject), None)
     return subject.name if index is None else Link(subject.name, anchor(index))
 

@@ -125,7 +125,7 @@ def _cell(size: float | str | None, unit: str | None, *, is_bare: bool = True) -
 
 
 def _noise_effect(study: WorstOutcome) -> list[Node]:
-    """Return the effect of new noise on the worst case; none if noise is not random."""
+    """Return the effect of new noise on the worst case; no statement if noise is not random."""
     if study.fresh is None or study.over is None:
         return []
     fresh = study.fresh.document(study.as_json)

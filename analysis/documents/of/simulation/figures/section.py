@@ -81,7 +81,7 @@ def select_rows(rows: SampleRange | None, result: FlightResult) -> tuple[np.ndar
 
 
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Quantity]:
-    """Return the numbers of a column with the decimals of the largest at ``digits`` significant digits."""
+    """Return the numbers of a column with as many decimals as give the largest ``digits`` significant digits."""
     sizes = [abs(in_display_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
     maximum = max(sizes, default=0.0)
     places = max(0, digits - 1 - math.floor(math.log10(maximum))) if maximum > 0.0 else 0

@@ -132,7 +132,8 @@ def _within(axis: Axis, frequency: float) -> float:
 def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_right: bool) -> tuple[Curve, ChartNote]:
     """Return a required margin as a short dashed line at its crossover, labelled on the right or the left.
 
-    Responses usually fall: a response below the line has crossed it on the left, one above crosses it on the right.
+    Responses usually fall with frequency: a response below the line crosses it on the left, a response above it crosses
+    it on the right.
     """
     low, high = (math.log10(end) for end in axis.ends)
     frequency = _within(axis, frequency)
@@ -151,7 +152,7 @@ def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_
 
 
 def _gain_ends(gain: np.ndarray, marked: float) -> tuple[float, float]:
-    """Return the ends of the gain axis (dB): the whole gain, unless a zero or a pole would compress the rest."""
+    """Return the ends of the gain axis (dB): the full range, unless a zero or a pole would compress other gains."""
     low, high = float(np.min(gain)), max(min(float(np.max(gain)), NEAR), marked, 0.0)
     low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
     return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0
