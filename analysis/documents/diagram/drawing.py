@@ -97,7 +97,7 @@ def _draw_frame(parent: etree._Element, placed: PlacedBlock, colour: str) -> Non
 
 
 def _draw_edge(parent: etree._Element, route: Route, earlier: Iterable[Segment], colour: str) -> None:
-    """Draw the line of an edge where no ``earlier`` line of its port covers it, and a transparent one for the pointer."""
+    """Draw an edge where no ``earlier`` line of its port covers it, and a transparent line for the pointer."""
     attributes = {"class": "edge", "data-signals": _json(a for a, _ in route.edge.pairs)}
     group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in route.edge.pairs)})
     _title(group, edge_text(route.edge))

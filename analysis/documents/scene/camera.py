@@ -32,7 +32,10 @@ class Camera:
         return np.asarray((points - self.eye) @ self.axes.T)
 
     def project(self, points: np.ndarray) -> np.ndarray:
-        """Project points from `look` to the picture, [n, 2]: distance right of and below its centre, over its height."""
+        """Project points from `look` to the picture, [n, 2].
+
+        The result is the distance to the right of and below the centre of the picture, divided by its height.
+        """
         return np.asarray(points[:, :2] * [0.5, -0.5] / (self.tangent * points[:, 2:]))
 
 
