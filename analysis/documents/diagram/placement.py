@@ -103,7 +103,7 @@ class Arrangement:
             route.points = [(px + x, py + y) for px, py in route.points]
 
     def stretch(self, strips: Sequence[tuple[float, float]]) -> None:
-        """Insert empty strips of given widths at abscissas; ends of edges stay at their ports."""
+        """Insert empty strips, a width at each abscissa; ends of edges stay at their ports."""
 
         def shift(x: float) -> float:
             return sum(width for position, width in strips if x >= position)

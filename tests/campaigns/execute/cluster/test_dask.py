@@ -245,9 +245,9 @@ def test_what_is_said_of_another_perilune():
     for theirs, words in (
         (
             ("0.1.0", "ab"),
-            "worker w has perilune 0.1.0, this process has 0.2.0; install this version in the worker's environment",
+            "worker w has perilune 0.1.0, but this process has 0.2.0; install this version in the worker's environment",
         ),
-        (("0.2.0", "cd"), "worker w has other sources of perilune 0.2.0;"),
+        (("0.2.0", "cd"), "worker w has perilune 0.2.0 with different source files;"),
         (ModuleNotFoundError("No module named 'perilune'"), "cannot load perilune: No module named 'perilune';"),
     ):
         with pytest.raises(InputError) as caught:
