@@ -1,6 +1,6 @@
-"""The order of folders is the order of imports: tests/folders.toml, read from the top down.
+"""Imports follow the order of folders in tests/folders.toml, read from top to bottom.
 
-Truth: the list, and the imports as Python's own parser reads them.
+Truth: the list, and the imports as read by Python's parser.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""tests/house: words to give up become fewer, and are counted right.
+"""tests/house: words to give up become fewer, and are counted correctly.
 
-Truth: the numbers of `tests/house/limits.toml`, and texts whose counts are plain to see.
+Truth: the numbers of `tests/house/limits.toml`, and texts with obvious counts.
 """
 
 from collections import Counter

@@ -1,6 +1,6 @@
-"""The guidance of docs/guides/neural_network_guidance.md, trained, built and flown as the page says.
+"""Guidance of docs/guides/neural_network_guidance.md, trained, built and simulated as on the page.
 
-Truth: the limits of the landing and the starts of the campaign, none of which it was trained on; the gradient by
+Truth: the limits of the landing for initial states of the campaign that are not training data; the gradient by
 differences.
 """
 

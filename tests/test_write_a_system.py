@@ -1,6 +1,6 @@
-"""The system of docs/write_a_system.md, flown as the page says, and what goes wrong in it.
+"""System of docs/write_a_system.md, simulated as on the page, and errors in it.
 
-Truth: scipy's integrator with the law written here; python-control on the held mass; the page, word by word.
+Truth: scipy's integrator with the law written here; python-control on the mass behind a hold; the page, word by word.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The guidance of docs/write_your_own.md, built and flown as the page says.
+"""Guidance of docs/write_your_own.md, built and simulated as on the page.
 
-Truth: the law meets the target by construction, so the flight ends within the paper's limits; the
-FMU needs nothing but the file on the page.
+Truth: the law meets the target by construction, so the descent ends within the paper's limits; the FMU requires only
+the file on the page.
 """
 
 from __future__ import annotations

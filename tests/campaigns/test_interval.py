@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.summary.success_interval against the beta distribution and by counting its coverage."""
+"""perilune.analysis.campaigns.summary.success_interval. Truth: the beta distribution, and the counted coverage."""
 
 import pytest
 from hypothesis import given

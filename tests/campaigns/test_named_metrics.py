@@ -1,4 +1,4 @@
-"""Metadata of a batch on signals and metrics along axes that the system names.
+"""Metadata of a batch on signals and metrics along named axes of a system.
 
 Truth: the names of the landing-site frame's axes in the system's annotation.
 """

@@ -1,7 +1,7 @@
 """perilune.analysis.campaigns.statistics.
 
 Truth: Python's statistics module, scipy's distribution function and numpy's quantile over the same finite columns; a
-quantile's definition counted trial by trial, in integers.
+quantile's definition, counted trial by trial in integers.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""perilune.analysis.campaigns.folder.stored and side_by_side: stored batches read, checked and compared.
+"""perilune.analysis.campaigns.folder.stored and side_by_side: reading, checks and comparison of stored batches.
 
-Truth: the batch in memory that was written; the rule that whatever is missing, damaged, or of two batches is
-refused in one line that names the file.
+Truth: the written batch in memory; the rule that a file that is missing, damaged or mixed from two batches is refused
+in one line that names it.
 """
 
 import json

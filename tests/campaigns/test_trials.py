@@ -1,4 +1,4 @@
-"""TrialTable: parts, joins, groups and numbers of trials, and what its columns mean.
+"""TrialTable: subsets, joins, groups and numbers of trials, and metadata of columns.
 
 Truth: the same columns in numpy, to the bit; units and meanings by hand.
 """

@@ -1,6 +1,6 @@
-"""perilune.analysis.campaigns.requirement_verdicts: verdicts on requirements by a variant's trials, and their texts.
+"""perilune.analysis.campaigns.requirement_verdicts: verdicts on requirements from a variant's trials, and their texts.
 
-Truth: failures counted by hand; those of tests/campaigns/verdicts; [success], which has the same rule.
+Truth: failures counted by hand; verdicts of tests/campaigns/verdicts; [success], which has the same rule.
 """
 
 import json

@@ -1,7 +1,7 @@
 """`perilune batch`: exit status, requirements, replay, files and JSON.
 
-Truth: `perilune.batch` with the same options; the exit status promised: 0 when it ran, whatever its
-success rate, 1 when a requirement is not met, 2 for wrong input.
+Truth: `perilune.batch` with the same options; the documented exit status: 0 if it ran, whatever its success rate, 1 if
+a requirement is not met, 2 for wrong input.
 """
 
 import json

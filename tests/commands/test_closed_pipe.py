@@ -1,7 +1,7 @@
-"""A reader that goes away, and a full disk, keep no result from being written and change no exit status.
+"""A closed pipe or a full disk prevents no result from being written and changes no exit status.
 
-Truth: a pipe of the operating system whose reading end is closed before the command begins; what the same command does
-with a reader.
+Truth: a pipe of the operating system whose reading end is closed before the command begins; the same command with a
+reader.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""--open: the page of --report in the user's browser, which is a program of the test's here.
+"""--open: the page of --report in the user's browser, here replaced by a program of the test.
 
-Truth: the address that the program was called with.
+Truth: the address with which the program was called.
 """
 
 import webbrowser

@@ -1,6 +1,6 @@
-"""Remarks of commands on their results: FMUs older than their source, inputs that nobody set, statuses and meanings.
+"""Remarks of commands on their results: FMUs older than their source, inputs without a value, meanings of statuses.
 
-Truth: files before and after an edit; the descriptions of the FMUs' own statuses; the flight's signals.
+Truth: files before and after an edit; the declared meanings of statuses; the signals of the simulation.
 """
 
 import shutil

@@ -1,4 +1,4 @@
-"""`perilune run`: files, JSON, exit status, against the Python API's flight.
+"""`perilune run`: files, JSON and exit status, compared with a simulation in Python.
 
 Truth: `perilune.simulate` with the same options; Python's json and csv modules.
 """

@@ -1,7 +1,8 @@
-"""`perilune stability`: what it writes, its exit status, margins over a campaign and the command for its worst trial.
+"""`perilune stability`: output, exit status, margins over a campaign, and the command for the worst trial.
 
-Truth: margins by python-control on support/loops/exact_systems.py with the gain that was drawn; the robot's gain
-margin goes with its mass; the exit status promised: 0, 1 for a limit that is missed, 2 for wrong input, a line each.
+Truth: margins by python-control on support/loops/exact_systems.py with the gain that was drawn; the robot's gain margin
+is proportional to its mass; the documented exit status: 0, 1 for a limit that is missed, 2 for wrong input, with one
+line each.
 """
 
 import json

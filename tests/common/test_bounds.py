@@ -1,6 +1,6 @@
-"""Bounds of files: named with the variable that changes them, and refused before memory is taken.
+"""Bounds of files: messages name the variable that changes the bound, and files are refused before memory is allocated.
 
-Truth: archives that declare more than they have; the table of the docs.
+Truth: archives that declare more than they contain; the table in the docs.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Names in CSV files that a spreadsheet would take for formulas have a quote mark before them.
+"""Names in CSV files that a spreadsheet would interpret as formulas are prefixed with a quote mark.
 
-Truth: what OWASP's page on CSV injection lists; the name that was given.
+Truth: the list on OWASP's page on CSV injection; the original name.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Names that are not UTF-8 are refused in one line, wherever they stand, before anything is simulated.
+"""Names that are not UTF-8 are refused in one line at any place, before any simulation.
 
 Truth: the bytes of the name, and an empty folder afterwards.
 """

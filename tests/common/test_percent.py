@@ -1,4 +1,4 @@
-"""perilune.common.percent, and that nothing else prints fractions in a format that runs into powers of ten.
+"""perilune.common.percent, and the absence of other formats of fractions, which could print powers of ten.
 
 Truth: decimal arithmetic, and the sources.
 """

@@ -1,6 +1,6 @@
 """perilune.common.progress: lines of a log where standard error is no terminal.
 
-Truth: the steps that the test itself does.
+Truth: the steps taken by the test.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Folders for a while: gone with their process, or swept by the next one.
+"""Temporary folders: removed with their process, or by the next process.
 
-Truth: what lies among the temporary files.
+Truth: the folders among the temporary files.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Links in archives, as Unix tools pack them with `zip -y`: named, and not followed."""
+"""Symbolic links in archives, as packed by `zip -y`: named, and not followed. Truth: the archives written here."""
 
 import zipfile
 

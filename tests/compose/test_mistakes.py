@@ -1,6 +1,6 @@
-"""Mistakes in a system.toml: a line each, all at once, exit status 2, nothing written.
+"""Errors in a system.toml: one line each, reported together, exit status 2, nothing written.
 
-Truth: the lines that a reader needs, written here.
+Truth: the expected lines, written here.
 """
 
 from __future__ import annotations

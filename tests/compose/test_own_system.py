@@ -1,6 +1,6 @@
-"""The six blocks of docs/write_a_system.md, composed, validated and flown; the same in Python.
+"""The six blocks of docs/write_a_system.md: composed, validated and simulated, also from Python.
 
-Truth: the angular momentum of body and wheels, which nothing outside changes, with scipy's rotations; the target.
+Truth: the angular momentum of body and wheels, which is conserved, with scipy's rotations; the target.
 """
 
 from __future__ import annotations

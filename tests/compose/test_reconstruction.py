@@ -1,6 +1,6 @@
-"""The way back: what a system.toml cannot say is refused with the element and its line, the rest returns whole.
+"""Reconstruction of a system.toml from an SSD: refusals name element and line, all else is preserved.
 
-Truth: what is written here into a composed SSD.
+Truth: the elements inserted here into a composed SSD.
 """
 
 from __future__ import annotations

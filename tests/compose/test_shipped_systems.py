@@ -1,6 +1,6 @@
-"""Every shipped system: composed by the build, the same bytes again, and back to its system.toml; and its own flight.
+"""Shipped systems: reproducible composition, reconstruction of system.toml, and equal simulations.
 
-Truth: what a person wrote, system.toml and annotations.xml; SSP's schema; numbers of vector pairs counted by the text.
+Truth: the hand-written system.toml and annotations.xml; the schema of SSP; numbers of vector pairs counted in the text.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Our side of the cross-check of the entry.
+"""Perilune's side of the cross-check of the entry.
 
 Truth: Newton's law in inertial axes and the kinematics of quaternions, on central differences of sixth order.
 """

@@ -1,6 +1,6 @@
-"""Cross-checks against Basilisk, as far as they need none: how tables are compared, our sides, the page.
+"""Cross-checks with Basilisk, as far as testable without it: comparison of tables, Perilune's sides, the page.
 
-Truth: scipy's Rotation; energy and angular momentum, which a coast and a free rotation keep; what the cases state.
+Truth: scipy's Rotation; energy and angular momentum, conserved in a coast and in a free rotation; the declared cases.
 """
 
 import ast

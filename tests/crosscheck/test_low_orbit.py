@@ -1,7 +1,7 @@
-"""Our sides of the flights in a low orbit.
+"""Perilune's sides of the cross-checks in a low orbit.
 
-Truth: the energy in a zonal potential by scipy's Legendre polynomials and in the tides of Sun and Moon; the momentum
-that dipoles add in a field by other code; drag and solar pressure by their closed forms.
+Truth: the energy in a zonal potential, by scipy's Legendre polynomials, and in the tidal potential of Sun and Moon; the
+momentum added by dipoles in a field from other code; drag and solar pressure in closed form.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""Comparisons of models with Basilisk's, as far as they need none: our sides, how they are compared, the page.
+"""Comparisons of models with Basilisk's, as far as testable without it: Perilune's sides, comparison, the page.
 
-Truth: the eclipse in 40 digits; what each sensor is said to measure, by numpy and scipy's Rotation; what the
-comparisons state.
+Truth: the eclipse in 40 digits; the documented measurement of each sensor, by numpy and scipy's Rotation; the declared
+comparisons.
 """
 
 from importlib import import_module

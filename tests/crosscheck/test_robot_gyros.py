@@ -1,7 +1,7 @@
-"""Our side of the cross-check of gyros.
+"""Perilune's side of the cross-check of gyros.
 
-Truth: the angular momentum of body and gyros, which nothing changes, from the closed form of the gimbal angles and by
-scipy's Rotation.
+Truth: conservation of the angular momentum of body and gyros, from the closed form of the gimbal angles and scipy's
+Rotation.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Flights with modes and what cases of spacecraft have in common, as far as they need no Basilisk.
+"""Cross-checks with flexible modes, and shared code of the spacecraft cases, as far as testable without Basilisk.
 
-Truth: mass, centre and inertia add up; derivatives of rotations; accelerations by a mass matrix.
+Truth: sums of mass, centre and inertia; derivatives of rotations; accelerations from a mass matrix.
 """
 
 from importlib import import_module

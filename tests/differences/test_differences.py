@@ -1,6 +1,6 @@
-"""Two runs over each other: differences, units, times, copies; the command and its page.
+"""Comparison of two runs: differences, units, times, copies; the command and its page.
 
-Truth: closed forms of the signals, numpy on the tables that two runs of a system wrote, factors of units.
+Truth: closed forms of the signals, numpy on the tables of two runs, unit factors.
 """
 
 import json

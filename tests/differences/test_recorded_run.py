@@ -1,6 +1,6 @@
-"""Runs read back from tables: our own, another tool's, and what is refused.
+"""Runs read from tables of Perilune and of other tools, and refusals.
 
-Truth: the arrays that were written.
+Truth: the written arrays.
 """
 
 import json

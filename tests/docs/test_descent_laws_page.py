@@ -1,7 +1,7 @@
-"""The tables of docs/systems/descent_laws.md are what the commands above them give.
+"""Tables of docs/systems/descent_laws.md equal the results of the commands above them.
 
-Truth: the campaigns themselves, whose means are formed here by numpy. `make test` flies two rows, whose flights are
-short, `make long` all.
+Truth: the campaigns, whose means are computed here by numpy. `make test` simulates two rows with short descents, `make
+long` all.
 """
 
 import re

@@ -1,7 +1,7 @@
-"""The table of margins of docs/systems/descent_laws.md is what the command above it gives.
+"""The table of margins in docs/systems/descent_laws.md equals the result of the command above it.
 
-Truth: the loops in closed form, with margins by python-control; both routes of the study. `make test` linearises one
-law, `make long` studies all, by both routes.
+Truth: the loops in closed form, with margins by python-control; both methods of the study. `make test` linearises one
+law, `make long` studies all laws by both methods.
 """
 
 import re

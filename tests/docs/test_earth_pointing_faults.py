@@ -1,4 +1,4 @@
-"""Faults of earth_pointing: what the page says of them is what its commands fly.
+"""Faults of earth_pointing: the statements of the page agree with the results of its commands.
 
 Truth: angular momentum is the integral of the torque of the stuck torquer; the drift of gyros in closed form; the chord
 of the angle at which the gate closes.

@@ -1,7 +1,7 @@
-"""The numbers of docs/systems/earth_pointing.md are those of the commands next to them, and follow from each other.
+"""Numbers in docs/systems/earth_pointing.md agree with the commands next to them and with each other.
 
-Truth: the flight, reduced here by numpy; Farrenkopf's covariance; the binomial distribution. `make long` flies the
-campaign as well.
+Truth: the simulation, reduced here by numpy; Farrenkopf's covariance; the binomial distribution. `make long` also
+simulates the campaign.
 """
 
 import functools

@@ -1,4 +1,4 @@
-"""The attitude loop of earth_pointing far from the body, by both methods, and what its page says of the orbit.
+"""Attitude loop of earth_pointing far from the central body, by both methods, and the page's statements on the orbit.
 
 Truth: a double integrator behind a hold, with the friction of wheels, in closed form; the gradient of a point's
 gravity. `make long` studies all axes and points, and the orbit.

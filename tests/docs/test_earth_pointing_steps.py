@@ -1,7 +1,7 @@
-"""A flight of earth_pointing at half its step, and at half the internal step of its plant.
+"""Simulation of earth_pointing with half the communication step, and with half the internal step of its plant.
 
-Truth: the finer flight, within the bounds of a metre's thousandth and an arc second; attitudes by scipy. `make long`
-flies six revolutions.
+Truth: the simulation with the finer step, within 1 mm and 1 arcsec; attitudes by scipy. `make long` simulates six
+revolutions.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Numbers of docs/papers/huang.md: those that its commands compute.
+"""Numbers in docs/papers/huang.md equal the results of its commands.
 
-Truth: the plans themselves, whose own tests have other truths.
+Truth: the plans, which other tests verify independently.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""The table of laws in the braking, docs/systems/landing_mission.md, is what the command above it gives.
+"""Table of braking laws in docs/systems/landing_mission.md equals the result of the command above it.
 
-Truth: the campaign, whose means numpy forms. `make test` flies four trials of one law, `make long` the table.
+Truth: the campaign, with means by numpy. `make test` simulates four trials of one law, `make long` the table.
 """
 
 import re

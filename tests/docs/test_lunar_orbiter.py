@@ -1,4 +1,4 @@
-"""The system earth_pointing about the Moon: the numbers of its page, and blocks that have no field.
+"""System earth_pointing in orbit about the Moon: numbers of its page, and blocks without a magnetic field.
 
 Truth: period and shadow of a circle in closed form; the balance of angular momentum; Farrenkopf's covariance and gyro
 noise through the loop; the nadir by scipy.

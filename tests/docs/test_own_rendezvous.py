@@ -1,4 +1,4 @@
-"""The blocks of docs/guides/own_rendezvous.md against other mathematics, and its system in the short form.
+"""Blocks of docs/guides/own_rendezvous.md, compared with independent mathematics, and its system as system.toml.
 
 Truth: the exponential of Clohessy and Wiltshire's matrix by scipy, written here; `filterpy.kalman.ExtendedKalmanFilter`
 with the Jacobian by the unit vectors of spherical coordinates; the declared standard deviations of the noise.

@@ -1,7 +1,7 @@
-"""The files of docs/guides/own_satellite.md: its orbit, its flight and its worst trial, and the numbers next to them.
+"""Files of docs/guides/own_satellite.md: orbit, simulation and worst trial, and the numbers next to them.
 
-Truth: an orbit with J2 by DOP853, and the equation of time of 1 June in almanacs; the binomial distribution; the
-offset T/(J w0^2) that a constant torque leaves. `make long` flies the campaign as well.
+Truth: an orbit with J2 by DOP853, and the equation of time of 1 June in almanacs; the binomial distribution; the offset
+T/(J w0^2) that a constant torque leaves. `make long` also simulates the campaign.
 """
 
 from __future__ import annotations

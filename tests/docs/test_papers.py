@@ -1,6 +1,6 @@
-"""The pages of the papers: each row has a status and what proves it, and numbers stand where they are quoted from.
+"""Pages on the papers: each row has a status and evidence, and quoted numbers occur at their sources.
 
-Truth: the files of the repository, the commands that other tests carry out, the linked pages.
+Truth: the files of the repository, the commands executed by other tests, the linked pages.
 """
 
 import re

@@ -1,6 +1,6 @@
-"""The page of two runs: which element a line is, and what its legend hides.
+"""Page of two compared runs: the element of each line, and lines hidden by the legend.
 
-Truth: the hand-written runs, with elements that differ by known amounts.
+Truth: hand-written runs with elements that differ by known amounts.
 """
 
 import numpy as np

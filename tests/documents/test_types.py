@@ -1,6 +1,6 @@
-"""Documents of pages in TypeScript are those that Python declares, and each member of them is read.
+"""TypeScript types of page documents equal the Python declarations, and every member is used.
 
-Truth: TypeScript's checker, which refuses a name that is not declared, and names each use of a private member.
+Truth: the TypeScript checker, which rejects undeclared names and lists uses of each private member.
 """
 
 import re

@@ -1,6 +1,6 @@
-"""Pages of runs, campaigns and comparisons need no matplotlib.
+"""Pages of runs, campaigns and comparisons do not require matplotlib.
 
-Truth: the page that a process writes in which it can be imported.
+Truth: the page written by a process in which matplotlib can be imported.
 """
 
 import subprocess

@@ -1,6 +1,6 @@
-"""Evidence in an FMU of ours: manifest, digests, page, and a check that a user wrote.
+"""Evidence in an exported FMU: manifest, digests, page, and a user's check.
 
-Truth: sha256sum and hashlib over the archive's files, the declaration of the block, one flight by hand.
+Truth: sha256sum and hashlib over the archive's files, the declaration of the block, one simulation by hand.
 """
 
 import hashlib

@@ -1,6 +1,6 @@
-"""Evidence of others that names files elsewhere, other studies, or very much: a line each, nothing read or written.
+"""Foreign evidence that names files elsewhere, unknown studies, or too much: one line each, nothing read or written.
 
-Truth: what each manifest says.
+Truth: the contents of each manifest.
 """
 
 import hashlib

@@ -1,6 +1,6 @@
 """`perilune export X.ssd` writes the system that `perilune run X.ssd` simulates.
 
-Truth: both simulated, to the last bit.
+Truth: both simulations, equal to the last bit.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`perilune verify` on Reference-FMUs of FMI 2 and 3, with the manifest that their repository has for them.
+"""`perilune verify` on Reference-FMUs of FMI 2.0 and 3.0, with the manifest in their repository.
 
 Truth: FMPy's simulation of the default experiment.
 """

@@ -1,6 +1,6 @@
-"""`perilune verify`: what is as it was handed on passes, one changed bit is named with its signal and time.
+"""`perilune verify`: unchanged deliveries pass, and one changed bit is reported with its signal and time.
 
-Truth: FMUs with one thing changed by the test; trajectories that FMPy simulated.
+Truth: FMUs with one change by the test; trajectories simulated by FMPy.
 """
 
 import csv

@@ -1,6 +1,6 @@
-"""Experiments that take too much are refused, and what says too little is compared, not verified.
+"""Evidence beyond the limits of resources is refused, and incomplete evidence is compared, not verified.
 
-Truth: an FMU of ours with one number of its evidence changed by the test.
+Truth: an exported FMU with one number of its evidence changed by the test.
 """
 
 import json

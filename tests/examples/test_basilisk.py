@@ -1,6 +1,7 @@
-"""Plants that Basilisk simulates: the example and the one of the guide. `make basilisk` runs them, where Basilisk is.
+"""Plants simulated by Basilisk: the example and the plant of the guide. `make basilisk` runs these tests with Basilisk.
 
-Truth: Kepler's equation; Newton's law; the same flights with our own plant, to the second order of the example's step.
+Truth: Kepler's equation; Newton's law; the same simulations with Perilune's plant, to second order in the example's
+step.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Blocks with files and with modules next to them: what is declared travels in the FMU, and nothing else is needed.
+"""Blocks with data files and modules: declared files are packed into the FMU, and no other files are needed.
 
-Truth: the numbers in the files; the plain Python object; a process that sees neither the folder nor this repository.
+Truth: the numbers in the files; the plain Python object; a process without access to the folder and this repository.
 """
 
 import shutil

@@ -1,6 +1,6 @@
-"""`perilune export FILE.py`: what it builds flies, by name and by path; what it cannot build it says in one line.
+"""`perilune export FILE.py`: built FMUs run by name and by path; errors are reported in one line.
 
-Truth: the exit statuses 0 (built), 2 (wrong input); flights of what was built, known in advance.
+Truth: the exit statuses 0 (built) and 2 (wrong input); simulations of the built FMUs with known results.
 """
 
 import pytest

@@ -1,6 +1,6 @@
-"""Building FMUs tells how far it is, where somebody watches.
+"""Progress of building FMUs is shown on a terminal.
 
-Truth: how many FMUs are built.
+Truth: the number of built FMUs.
 """
 
 import pytest

@@ -1,7 +1,6 @@
-"""Content of a Python FMU: the block's import closure, no more, under a name that follows its content.
+"""Content of a Python FMU: exactly the block's import closure, under a name derived from its content.
 
-Truth: blocks written here whose imports are known; Python itself, which runs the packed files away from this
-repository.
+Truth: blocks written here with known imports; Python, which runs the packed files outside this repository.
 """
 
 import subprocess

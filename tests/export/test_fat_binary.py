@@ -1,6 +1,7 @@
-"""Universal macOS libraries from those of one processor each.
+"""Universal macOS libraries from libraries for one processor each.
 
-Truth: macholib, which reads what is joined; the libraries that went in. The real ones: tests/package/test_wheel.py.
+Truth: macholib, which reads the combined library; the original libraries. Real libraries are tested in
+tests/package/test_wheel.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""FMUs of the catalogue in FMPy as they come: valid, and running on their declared starts at the step they propose.
+"""FMUs of the catalogue in FMPy: valid, and running from their declared start values with their proposed step.
 
-`make long` takes them all, `make test` every twentieth of either flavour, other blocks of each.
+`make long` covers all FMUs, `make test` every twentieth of each flavour, with different blocks.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""modelDescription.xml against the declaration it comes from, as fmpy reads it.
+"""modelDescription.xml as read by FMPy, compared with the block's declaration.
 
-Truth: the declarations themselves. What FMPy finds wrong in built FMUs: test_fmus_elsewhere.py.
+Truth: the declarations. FMPy's validation of built FMUs is in test_fmus_elsewhere.py.
 """
 
 import io

@@ -1,4 +1,4 @@
-"""Native instances over many resets and in many threads: memory stays flat, and so do the bits."""
+"""Native instances over many resets and in many threads: constant memory and constant bits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The native FMU as an archive: valid, reproducible, cached, free of Python where it runs."""
+"""Native FMU as an archive: valid, reproducible, cached, and independent of Python at run time."""
 
 from __future__ import annotations
 

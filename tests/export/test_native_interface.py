@@ -1,4 +1,4 @@
-"""The native FMU's FMI functions: life cycle, complete state, and refusal of wrong calls."""
+"""FMI functions of the native FMU: life cycle, complete state, and refusal of invalid calls. Truth: FMI 2.0."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Python FMUs as files and in flight: same bytes from same sources, own code for ever, safe to use twice.
+"""Python FMUs: equal bytes from equal sources, fixed code after the build, several FMUs in one process.
 
 Truth: bytes; a constant changed in a copy of the sources; a process that cannot import the repository; the plain Python
 object, stepped with the FMU.

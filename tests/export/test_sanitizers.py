@@ -1,4 +1,4 @@
-"""The C of blocks under the address and undefined-behaviour sanitizers; `make sanitize` takes all, and flies longer."""
+"""The C of blocks under the address and undefined-behaviour sanitizers; `make sanitize` covers all, in longer runs."""
 
 from __future__ import annotations
 

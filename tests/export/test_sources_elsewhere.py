@@ -1,4 +1,4 @@
-"""A native FMU compiled again from its own sources/, as for another platform: the bits of Python, whoever compiles."""
+"""Native FMU recompiled from its sources/, as for another platform: the bits of Python with any compiler."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""From a system's folder to its .ssp: every file at its place, the FMUs that its SSDs name, the same bytes.
+"""From a system's folder to its .ssp: place of every file, FMUs named by its SSDs, reproducible bytes.
 
-Truth: the SSP 1.0 layout; zipfile; the folder's own files.
+Truth: the layout of SSP 1.0; zipfile; the files of the folder.
 """
 
 import zipfile

@@ -1,7 +1,7 @@
-"""Every block of the catalogue, integrators and bundles, in three faces: Python object, pythonfmu FMU, native FMU.
+"""Every block of the catalogue, integrators and bundles, in three forms: Python object, pythonfmu FMU, native FMU.
 
 Called with the same random admissible values through FMI, all variables agree to the last bit after every step. The
-compiled library alone is compared more widely in test_native_equals_python.py.
+compiled library is compared more extensively in test_native_equals_python.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Documents, tables, expressions and archives with something changed.
+"""Randomly altered documents, tables, expressions and archives.
 
-Truth: good documents; the reader raises nothing but an `InputError` in one line, whatever is changed in them.
+Truth: valid documents; the reader raises only an `InputError` of one line, for any alteration.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Native FMUs take any sequence of calls: the sanitizers find nothing. `make fuzz` takes two million, led by coverage.
+"""Native FMUs accept any sequence of calls. `make fuzz` runs two million calls, guided by coverage.
 
 Truth: the sanitizers of the compiler.
 """

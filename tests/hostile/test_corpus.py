@@ -1,6 +1,6 @@
-"""Hostile files, each read by the commands that take it: exit status, one line that names file and element, no more.
+"""Hostile files, each read by the commands that accept it: exit status, and one line that names file and element.
 
-Truth: what each case says of its own file. The largest resident memory is the operating system's account of the child.
+Truth: the expectation stated with each file. The peak resident memory is measured by the operating system.
 """
 
 from __future__ import annotations

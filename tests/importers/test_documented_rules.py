@@ -1,6 +1,6 @@
-"""FMUs keep the rules that importers document; the page names each rule that is checked.
+"""FMUs follow the rules documented by importers; the page names each checked rule.
 
-A checkout builds libraries of its own machine; those that a wheel has are looked at in tests/package/test_wheel.py.
+A checkout builds libraries for its machine; the libraries of a wheel are tested in tests/package/test_wheel.py.
 """
 
 from __future__ import annotations

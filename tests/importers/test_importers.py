@@ -1,6 +1,6 @@
-"""FMUs in importers that know nothing of Perilune, and the table of what `make importers` has flown.
+"""FMUs in other importers, and the table of the results of `make importers`.
 
-Truth: FMPy, whose values libcosim, Ecos and the FMU Manipulation Toolbox give to the last bit.
+Truth: FMPy, whose values libcosim, Ecos and the FMU Manipulation Toolbox reproduce to the last bit.
 """
 
 from __future__ import annotations

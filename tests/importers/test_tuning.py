@@ -1,6 +1,6 @@
-"""Tunable parameters that importers change in flight, by their own means.
+"""Tunable parameters changed by importers during a simulation.
 
-Truth: free fall in closed form with another gravity from the middle on; FMPy, whose bits the other importers have.
+Truth: free fall in closed form with a change of gravity halfway; FMPy, whose bits the other importers reproduce.
 """
 
 from __future__ import annotations

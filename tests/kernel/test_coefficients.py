@@ -1,4 +1,4 @@
-"""The polynomials in the sources are those that their derivation gives."""
+"""Polynomials in the sources equal the results of their derivation."""
 
 from types import ModuleType
 

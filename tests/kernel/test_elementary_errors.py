@@ -1,6 +1,6 @@
-"""Errors of the elementary functions against mpmath, and their special values and faults against `math`.
+"""Elementary functions: errors relative to mpmath; special values and faults compared with `math`.
 
-10^4 arguments each; `make elementary` takes 10^6.
+Each function is tested with 10^4 arguments, by `make elementary` with 10^6.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Integrators: exact for what their order promises, and of that order.
+"""Integrators: exact for polynomials of their order, and convergent with their order.
 
 Truth: closed forms of a harmonic oscillator, alone and driven, of a circular orbit and of polynomials; the order
-observed as the step is halved.
+observed when the step is halved.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Matrices of kernels against numpy and rational numbers: within the rounding that the condition number allows."""
+"""Matrices of kernels. Truth: numpy and rational numbers, within rounding errors scaled by the condition."""
 
 import pickle
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""The normal distribution and its inverse against mpmath; and hypot, which no block calls."""
+"""Normal distribution and its inverse, and hypot, which no block calls. Truth: mpmath."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Cubic splines against scipy's, to rounding."""
+"""Cubic splines. Truth: scipy's splines, to rounding."""
 
 import numpy as np
 import pytest

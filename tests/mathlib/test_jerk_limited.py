@@ -1,7 +1,7 @@
-"""Profiles of least time within limits of rate, acceleration and jerk: `perilune.fmus_src.mathlib.jerk_limited`.
+"""`perilune.fmus_src.mathlib.jerk_limited`: profiles of least time within limits of rate, acceleration and jerk.
 
-Truth: seven arcs of constant jerk in closed form; linear programmes over 120 of them (HiGHS), which find the turn
-infeasible in less time and extreme in that time; polynomials, which are slower within their own limits.
+Truth: seven arcs of constant jerk in closed form; linear programmes over 120 arcs (HiGHS), for which the rotation is
+infeasible in less time and extreme in this time; polynomials, which are slower within their own limits.
 """
 
 import math

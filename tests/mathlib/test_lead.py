@@ -1,7 +1,7 @@
-"""Lead compensator by Tustin's rule: `perilune.fmus_src.mathlib.lead` against scipy's bilinear discretisation.
+"""`perilune.fmus_src.mathlib.lead`: lead compensator by Tustin's rule.
 
 Truth: `scipy.signal.cont2discrete` (bilinear) and `lfilter` on random inputs; python-control's frequency response of
-the sampled system; at a change of law the output of the old law.
+the sampled system; at a change of law, the output of the old law.
 """
 
 import control

@@ -1,8 +1,8 @@
-"""The network operator: operations, decoding and evaluation.
+"""Network operator: operations, decoding and evaluation.
 
-Truth: the formulas of the operations in numpy; the same network evaluated from its outputs backwards, node by
-node, with Python's own functions; matrices broken in one place. Tolerance 4 rounding errors for a
-single operation, and equality for the evaluation, which is the same arithmetic in another order of nodes.
+Truth: the formulas of the operations in numpy; the same network evaluated from its outputs backwards, node by node,
+with Python's functions; matrices with one error. Tolerance: 4 rounding errors for a single operation, and equality for
+the evaluation, which is the same arithmetic in a different order of nodes.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Roots of polynomials: mathlib.polynomial against polynomials of chosen roots, and `numpy.roots`.
+"""`perilune.fmus_src.mathlib.polynomial`: roots. Truth: polynomials of chosen roots, and `numpy.roots`.
 
-Tolerance 1e-12 relative for roots that are chosen well apart, 1e-9 for those that numpy finds.
+Tolerance: 1e-12 relative for well-separated chosen roots, 1e-9 for roots found by numpy.
 """
 
 import itertools

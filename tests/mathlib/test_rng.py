@@ -1,11 +1,10 @@
-"""Random numbers: `perilune.fmus_src.mathlib.rng` against the published generator.
+"""`perilune.fmus_src.mathlib.rng`: random numbers of the published generator.
 
-Truth: the recurrences of MRG32k3a (L'Ecuyer 1999) in exact Python integers; its streams and substreams
-(L'Ecuyer, Simard, Chen and Kelton 2002) as powers 2^127 and 2^76 of the transition matrices, worked out
-here in big integers from the recurrences; numbers that the RngStreams package prints from its default
-seed. Tolerance: equality to the last bit; published decimals to half a unit of their last digit.
-Distributions and independence by tests at fixed seeds, each of which an honest generator fails at one
-seed in a thousand.
+Truth: the recurrences of MRG32k3a (L'Ecuyer 1999) in exact Python integers; its streams and substreams (L'Ecuyer,
+Simard, Chen and Kelton 2002) as powers 2^127 and 2^76 of the transition matrices, computed here in integers from the
+recurrences; numbers printed by the RngStreams package for its default seed. Tolerance: equality to the last bit;
+published decimals to half a unit of their last digit. Distributions and independence are tested at fixed seeds, at a
+level at which a correct generator fails for one seed in a thousand.
 """
 
 import math

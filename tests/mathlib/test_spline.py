@@ -1,8 +1,8 @@
-"""Splines of degree 5 and 6 and the rotation between directions: `perilune.fmus_src.mathlib.spline`.
+"""`perilune.fmus_src.mathlib.spline`: splines of degree 5 and 6, and the rotation between directions.
 
-Truth: the conditions at both ends, by numpy's own polynomials and their derivatives, which leave no freedom
-(six of degree 5, seven of degree 6, solved as a linear system); the turn of the paper, s^3 (20 - 45 s + 36 s^2 -
-10 s^3); rotations by scipy.
+Truth: the conditions at both ends, by numpy's polynomials and their derivatives, which determine the spline (six
+conditions for degree 5, seven for degree 6, solved as a linear system); the turn of the paper, s^3 (20 - 45 s + 36 s^2
+- 10 s^3); rotations by scipy.
 """
 
 import math

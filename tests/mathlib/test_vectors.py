@@ -1,7 +1,7 @@
-"""Vectors: `perilune.fmus_src.mathlib.vectors` against exact rational arithmetic, and their values against numpy.
+"""`perilune.fmus_src.mathlib.vectors`: operations on vectors.
 
-Truth: numpy's operators on arrays, bit for bit, for what is one operation per component; Python fractions
-(exact sums of products) and exact cases for the rest. Tolerance: 4 rounding errors of the largest term.
+Truth: numpy's operators on arrays, bit for bit, for single operations per component; Python fractions (exact sums of
+products) and exact cases for other functions. Tolerance: 4 rounding errors of the largest term.
 """
 
 import copy

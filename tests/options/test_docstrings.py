@@ -1,6 +1,6 @@
-"""Docstrings of the verbs' functions: Parameters and Example derive from the declarations.
+"""Docstrings of the verbs' functions: Parameters and Example are derived from the declarations.
 
-Truth: the parser of the command line, which reads the same example as a command; Python's own `ast` and `inspect`.
+Truth: the parser of the command line, which reads the same example as a command; Python's `ast` and `inspect`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Every command that is printed parses back to equal options, and is written in the same words again.
+"""Every printed command parses to equal options, and is printed identically again.
 
 Truth: the parser of the command line, which shares no text with the writer.
 """

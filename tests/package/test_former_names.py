@@ -1,4 +1,4 @@
-"""Modules under the names of the last release: imported with the new name said, and packed into FMUs.
+"""Modules under the names of the last release: import with a note on the new name, and packing into FMUs.
 
 Truth: the table of the changelog; the modules under their new names.
 """

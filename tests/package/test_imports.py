@@ -1,6 +1,6 @@
-"""Each verb imports those libraries alone that it needs: an import of one takes as long as the rest of the command.
+"""Each verb imports only the libraries that it needs, since importing one can take as long as the rest of the command.
 
-Truth: the modules that a fresh interpreter has after the command.
+Truth: the modules loaded in a new interpreter after the command.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Files of a user's that have the names of our rooms, and a folder of the clone's name: nothing is confused.
+"""Users' files with the names of the product's folders, and a folder with the name of the clone: no confusion.
 
-Truth: the script flies; what it imports by these names is its own.
+Truth: the script runs, and imports by these names are its own files.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""FMUs that Perilune built on this machine: its Python FMUs in the cache, and the list by which they are known.
+"""FMUs built by Perilune on this machine: Python FMUs in the cache, and the list that identifies them.
 
-Truth: FMUs built elsewhere, and sha256sum's format.
+Truth: FMUs built elsewhere, and the format of sha256sum.
 """
 
 import errno

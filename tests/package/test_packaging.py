@@ -1,7 +1,7 @@
 """Declarations of the package in pyproject.toml, setup.py and the Makefile; the wheel itself is tested in
 test_wheel.py.
 
-Truth: the files of the checkout; a Python that says it is an old one.
+Truth: the files of the checkout; a Python that reports an old version.
 """
 
 from __future__ import annotations

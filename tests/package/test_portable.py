@@ -1,6 +1,6 @@
-"""Absence of calls that only Linux or Unix has in the product.
+"""Absence in the product of calls that exist only on Linux or Unix.
 
-Truth: what Python's library reference marks "Availability: Unix", as its own parser finds it.
+Truth: functions marked "Availability: Unix" in Python's library reference.
 """
 
 from __future__ import annotations

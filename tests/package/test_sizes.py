@@ -1,6 +1,6 @@
-"""The sizes that README and docs state are those that `make sizes` has stored.
+"""Sizes stated in README and docs equal the sizes stored by `make sizes`.
 
-Truth: release/sizes.json; files of known length, and pip's own list of them, for what is added up.
+Truth: release/sizes.json; for sums, files of known length and pip's list of files.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The wheel as a user has it: what is in it, and every verb from another folder, without compiler or checkout.
+"""Wheel as installed by a user: its content, and every verb from another folder, without compiler or checkout.
 
-Truth: the same flights in the checkout; macholib and the formats' magic numbers; site-packages before and after.
+Truth: the same simulations in the checkout; macholib and the magic numbers of formats; site-packages before and after.
 """
 
 from __future__ import annotations

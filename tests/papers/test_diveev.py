@@ -1,9 +1,9 @@
-"""The published descents of Diveev, Pupkov and Sofronova (2013), flown by the FMUs.
+"""Published descents of Diveev, Pupkov and Sofronova (2013), simulated by the FMUs.
 
-Truth: tables 1 and 2 of the paper, as data below, and `independent_descent.py`, which shares nothing with the
+Truth: tables 1 and 2 of the paper, as data below, and `independent_descent.py`, which shares no code with the
 components (0.02 s and 0.01 m at the hand-over). Times of table 1 within 0.25 s and altitudes within 0.1 m; means of
-table 2 over 20 flights within 1.5 s and 10 m, with one row apart. The claims of robustness are flown
-over their whole ranges; where one does not hold, the region is asserted.
+table 2 over 20 descents within 1.5 s and 10 m, with one exception. Claims of robustness are simulated over their full
+ranges; if a claim does not hold, the region in which it holds is asserted.
 """
 
 import statistics

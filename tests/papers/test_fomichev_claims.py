@@ -1,7 +1,7 @@
-"""Claims of Fomichev and Li (2017) beyond their table, and how results depend on what they leave open.
+"""Claims of Fomichev and Li (2017) beyond their table, and the dependence of results on unspecified choices.
 
 Truth: the claims as printed; straight lines by least squares (numpy); binomial bounds at 99.9 % around the rates of
-docs/papers/fomichev_li.md, which are those of 2000 trials, compared to the digit under `make long`.
+2000 trials in docs/papers/fomichev_li.md, which `make long` compares digit by digit.
 """
 
 import re

@@ -1,8 +1,8 @@
-"""The published comparison of Fomichev and Li (2017), and what is reached here.
+"""Published comparison of Fomichev and Li (2017), and results here.
 
-Truth: the published table, as data below; binomial bounds at 99.9 % around the rates that were reproduced with
-independent code; bounds on the errors of the exact method from its own derivation. The paper's errors
-depend on a step that it does not state, so only rates are compared.
+Truth: the published table, as data below; binomial bounds at 99.9 % around rates reproduced with independent code;
+bounds on the errors of the exact method from its derivation. The paper's errors depend on an unspecified step, so only
+rates are compared.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The whole landing from dispersed elements of the pre-landing orbit, the outlook of Fomichev and Li (2017).
+"""Complete landing from dispersed orbital elements, as in the outlook of Fomichev and Li (2017).
 
 Truth: elements computed back from position and velocity at the start by the two-body formulas (vectors of angular
 momentum, node and eccentricity; Bate, Mueller and White 1971, section 2.4), in axes of the equator and the pole.

@@ -1,5 +1,4 @@
-"""Open parameters of the paper of Somov and others: figures of docs/papers/somov.md, of eight seeds under `make
-long`."""
+"""Open parameters of Somov and others. Truth: numbers in docs/papers/somov.md, under `make long` for eight seeds."""
 
 import re
 

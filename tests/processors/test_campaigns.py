@@ -1,7 +1,7 @@
-"""Campaigns leave the same bytes on a processor without fused operations and wide vectors.
+"""Campaigns write the same bytes on a processor without fused multiply-add and wide vectors.
 
-Truth: the folder of the same campaign on this processor. The C library, numpy and OpenBLAS are set to use
-less of it. `make processors` flies whole campaigns.
+Truth: the folder of the same campaign on this processor. The C library, numpy and OpenBLAS are configured to use fewer
+instructions. `make processors` simulates complete campaigns.
 """
 
 from __future__ import annotations

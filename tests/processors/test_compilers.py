@@ -1,8 +1,8 @@
-"""The C of blocks has the same bits by every compiler, optimisation and processor.
+"""The C of blocks gives the same bits with every compiler, optimisation and processor.
 
-Truth: a checksum over all variables of a flight of random inputs, computed here with the system's compiler without
-optimisation; the same for x86-64 with and without fused operations, and for aarch64 under qemu. `make processors` takes
-every block and every compiler.
+Truth: a checksum over all variables of a simulation with random inputs, computed here with the system's compiler
+without optimisation; it must be equal for x86-64 with and without fused multiply-add, and for aarch64 under qemu. `make
+processors` covers every block and every compiler.
 """
 
 from __future__ import annotations

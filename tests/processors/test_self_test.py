@@ -1,6 +1,6 @@
-"""An FMU compiled from its own sources with flags that change results refuses to be instantiated, and says the flag.
+"""An FMU compiled from its sources with flags that change results rejects instantiation, and names the flag.
 
-Truth: what the manuals of gcc and clang say of their flags.
+Truth: the manuals of gcc and clang on these flags.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""The Windows libraries of the FMUs as a wheel has them give the bits of their C here.
+"""Windows libraries of FMUs, as in a wheel, give the same bits as their C on this machine.
 
-Truth: the checksum of `test_compilers.py`, by the system's compiler without optimisation. Windows is Wine's, with
-Microsoft's C runtime (ucrtbase) as Wine writes it: what an FMU calls of it is exact. Only `make processors` takes it.
+Truth: the checksum of `test_compilers.py`, by the system's compiler without optimisation. Windows is replaced by Wine,
+with its implementation of Microsoft's C runtime (ucrtbase), in which the functions called by FMUs are exact. Only `make
+processors` runs this file.
 """
 
 from __future__ import annotations

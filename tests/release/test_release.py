@@ -1,6 +1,6 @@
-"""A release of a small checkout: what is refused, what is written, committed and tagged; archives and pages compared.
+"""Release of a small checkout: refusals, written files, commit and tag; comparison of archives and pages.
 
-Truth: git's own answers, hand-written archives, HTML that readme_renderer writes.
+Truth: the answers of git, hand-written archives, HTML written by readme_renderer.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Counts of a page under a filter equal those of the files.
+"""Counts of a page under a filter equal the counts in the files.
 
-Truth: pyarrow's own filters and sums over all columns of the folder.
+Truth: pyarrow's filters and sums over all columns of the folder.
 """
 
 from __future__ import annotations

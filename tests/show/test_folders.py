@@ -1,6 +1,6 @@
-"""Folders that are none, are damaged, or lead elsewhere: refused in one line, before and while they are served.
+"""Folders that are missing, damaged, or links elsewhere: refused in one line, before and while they are served.
 
-Truth: a good folder in which the tests change what they know.
+Truth: a valid folder with known changes.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Refusals of the server: requests without a token, from elsewhere, that write, or for a file.
+"""Refusals of the server: requests without a token, from other origins, that write, or for files.
 
-Truth: the rules of docs/guides/show.md, as status and absence of content.
+Truth: the rules of docs/guides/show.md: status, and absence of content.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""`perilune show` as a process: where it listens, what it answers over a socket, how it ends.
+"""`perilune show` as a process: listening address, answers over a socket, end of the process.
 
 Truth: the operating system's list of sockets, the exit status, and bytes on a socket.
 """

@@ -1,6 +1,6 @@
-"""Bins of a scale: each number is in the one bin whose edges it lies between.
+"""Bins of a scale: each number is in the bin between whose edges it lies.
 
-Truth: the comparison of the number with the edges, and the least and the greatest number.
+Truth: comparison of the number with the edges; the minimum and the maximum.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Selected trials as a file: truth is the folder's own table, filtered by pyarrow."""
+"""Selected trials as a file. Truth: the table of the folder, filtered by pyarrow."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The page of `perilune show`: figures, brushes by pointer, keys and touch, trials and their commands, hostile names.
+"""Page of `perilune show`: figures, brushes by pointer, keys and touch, trials and their commands, hostile names.
 
-Truth: pyarrow's counts of the folder in the ranges that the page states.
+Truth: pyarrow's counts of the folder in the ranges stated on the page.
 """
 
 from __future__ import annotations

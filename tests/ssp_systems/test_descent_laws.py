@@ -1,7 +1,7 @@
-"""The bench of descent laws: campaigns `laws_*` of the lunar landing, reduced.
+"""Comparison of descent laws: campaigns `laws_*` of the lunar landing, with fewer trials.
 
-Truth: the target in force (terminal errors), the stored bound of each trial, which no flight can undercut, the
-same system without a divert (equal bits).
+Truth: the current target (terminal errors); the stored bound of each trial, which no landing can undercut; the same
+system without a divert (equal bits).
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""The entry as a user flies it: every regulator over the cases, reversals, gusts, and margins along the way.
+"""System entry_attitude: every control block in all cases, reversals, gusts, and margins along the trajectory.
 
-Truth: another program's flights of the same capsule and cases, to the digits it printed where sensors have no errors;
-the bang-coast-bang bound of a reversal in closed form; margins of another program. `make long` flies everything.
+Truth: simulations of the same capsule and cases by another program, to the digits printed if sensors have no errors;
+the bang-coast-bang bound of a reversal in closed form; margins from another program. `make long` covers all cases.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""A satellite with flexible modes: margins of its loop by both routes, and what a turn leaves of them.
+"""Satellite with flexible modes: margins of its loop by both methods, and residual vibration after a slew.
 
 Truth: the sampled loop of one axis with one mode in closed form, by the zero-order hold of an oscillator.
 """

@@ -1,8 +1,8 @@
-"""The hover transfer as a user flies it: the plan, how it is tracked, errors of all kinds, every direction, margins.
+"""System hover_transfer: plan, tracking, errors of all kinds, every direction, margins.
 
-Truth: another program's flights of the same vehicle and law (RMS of 200 flights a row, 1000 of the noisy ones); the
-paper's programme as that program solves it; the rocket equation; python-control's margins of the attitude loop.
-`make long` flies every row of the table as often as it was.
+Truth: simulations of the same vehicle and law by another program (RMS of 200 transfers per row, 1000 for noisy rows);
+the paper's programme solved by this program; the rocket equation; python-control's margins of the attitude loop. `make
+long` repeats every row with the full number of transfers.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""ideal.ssv and noisy.ssv mean the same in every system: no random errors, and all of them, whatever was set before.
+"""ideal.ssv and noisy.ssv have the same meaning in every system: no random errors, and all random errors.
 
-Truth: a flight without random errors does not depend on the seeds of its random numbers, to the last bit, and one with
-them does; a set that is applied last wins. docs/command_line.md states the rule and each system's default.
+Truth: a simulation without random errors does not depend on its seeds, to the last bit, and a simulation with random
+errors does; the set applied last wins. docs/command_line.md states the rule and the default of each system.
 """
 
 import re

@@ -1,9 +1,8 @@
-"""The whole landing as a user flies it: from orbit to contact, entered at any phase, with what goes wrong.
+"""System landing_mission: from orbit to contact, started in any phase, with faults.
 
-Truth: Kepler's ellipse (deorbit and coast), the rocket equation (propellant against the velocity that the engine gave),
-free fall (the contact), what a plan says beforehand (duration and propellant of the transfer), the chi-square
-distribution (the filter at the start of each phase), the limits of contact, and the stage table of the design, which
-stands here as a regression.
+Truth: Kepler's ellipse (deorbit and coast), the rocket equation (propellant and velocity gained), free fall (contact),
+the plan (duration and propellant of the transfer), the chi-square distribution (the filter at the start of each phase),
+the limits of contact, and the stage table of the design, as a regression.
 """
 
 import math

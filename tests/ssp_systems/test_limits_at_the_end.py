@@ -1,6 +1,6 @@
-"""Output of `perilune run` on the end of each system's flight: distances, speeds, errors against published limits.
+"""Output of `perilune run` on the end of each system's simulation: distances, speeds, errors and published limits.
 
-Truth: the same numbers worked out here from the last values of the signals; the pages of the systems, line by line.
+Truth: the same numbers computed here from the last values of the signals; the pages of the systems, line by line.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""The lunar landing as a user flies it: guidances and navigations swapped, with and without limits and errors.
+"""System lunar_landing: all guidances and navigations, with and without limits and errors.
 
-Truth: the target itself (terminal errors), the chi-square distribution (consistency of the filter), the rocket
-equation (propellant against the velocity that the engine gave), filterpy (the reference filter), the planar plant
-with curvature (the network operator in space), and the figures that the engine's lag must cost in closed form.
+Truth: the target itself (terminal errors), the chi-square distribution (consistency of the filter), the rocket equation
+(propellant and velocity gained), filterpy (the reference filter), the planar plant with curvature (the network operator
+in space), and the cost of the engine's lag in closed form.
 """
 
 import numpy as np

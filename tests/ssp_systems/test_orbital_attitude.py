@@ -1,8 +1,8 @@
-"""The orbital orientation as a user flies it: observers and regulators swapped, with and without sensor errors.
+"""System orbital_attitude: all observers and control blocks, with and without sensor errors.
 
-Truth: another program's flights of the same vehicle from the same forty starts (times within a tick, propellant within
-0.2 jet-s in the mean), the same plant, the chi-square distribution of the filter's own covariance. `make long` flies
-everything, `make test` what says most.
+Truth: simulations of the same vehicle from the same forty initial states by another program (times within one sample,
+mean propellant within 0.2 jet-s); the same plant; the chi-square distribution for the filter's covariance. `make long`
+covers all combinations, `make test` the most informative.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Gains that the orbital FMUs make at initialisation, against the modal library: 1e-9, with inertia, tick, poles drawn.
+"""Gains computed by the orbital FMUs at initialisation, for random inertia, sample period and poles (1e-9).
 
-Truth: `perilune.modal` on matrices written out in tests/support/loops/exact_orbital.py, apart from the blocks' kernels.
+Truth: `perilune.modal` with matrices from tests/support/loops/exact_orbital.py, independent of the blocks' kernels.
 """
 
 import numpy as np

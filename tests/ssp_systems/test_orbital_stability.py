@@ -1,7 +1,7 @@
-"""The loops of orbital_attitude as they fly, against the same loops in closed form, and the jets' limit cycle.
+"""Loops of orbital_attitude, compared with the same loops in closed form, and the limit cycle of the jets.
 
-Truth: tests/support/loops/exact_orbital.py, with margins by python-control; for the limit cycle the balance of
-that loop with a relay of two levels, by scipy.
+Truth: tests/support/loops/exact_orbital.py, with margins by python-control; for the limit cycle, the harmonic balance
+of this loop with a relay of two levels, by scipy.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""The approach of the free-flying robot as a user flies it: three parameter sets, three allocations, two steerings.
+"""System robot_rendezvous: three parameter sets, three allocations, two gyro steerings.
 
-Truth: the published and derived figures (hold, attitude, range at the end of the turn), the plan's own boundary
-conditions, momentum (the jets' impulse against the velocity gained), and the equality of runs cut differently.
+Truth: the published and derived figures (hold, attitude, range at the end of the turn), the boundary conditions of the
+plan, momentum (jet impulse and velocity gained), and equality of runs with different communication steps.
 """
 
 from functools import cache

@@ -1,7 +1,7 @@
-"""The whole satellite: it points in time with every allocation, profile and set, and its filter knows its errors.
+"""System satellite_pointing: pointing in time with all allocations, profiles and sets; filter consistency.
 
-Truth: durations of the profiles in closed form; the requirement of the page (10 arcsec); what a torque envelope permits
-by hand; the chi-square distribution of innovations.
+Truth: durations of the profiles in closed form; the requirement of the page (10 arcsec); torque envelopes by hand; the
+chi-square distribution of innovations.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""The stability of satellite_pointing, by both methods, against the same loop in closed form.
+"""Stability of satellite_pointing by both methods, compared with the same loop in closed form.
 
-Truth: support/loops/exact_satellite.py, which knows nothing of the FMUs, with margins by python-control; for
-proportional and derivative gains alone the margins of a double integrator behind a hold, by hand.
+Truth: support/loops/exact_satellite.py, which is independent of the FMUs, with margins by python-control; for
+proportional and derivative gains alone, the margins of a double integrator behind a hold, by hand.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""The stability of robot_rendezvous and lunar_landing, by both methods, against the same loops in closed form.
+"""Stability of robot_rendezvous and lunar_landing by both methods, compared with the same loops in closed form.
 
-Truth: support/loops/exact_robot.py and exact_lunar.py, which know nothing of the FMUs, with margins by
-python-control; the robot's published designs with means taken as interpolated delays; the double integrator under
+Truth: support/loops/exact_robot.py and exact_lunar.py, which are independent of the FMUs, with margins by
+python-control; the robot's published designs with sample means as interpolated delays; the double integrator under
 6/T^2 and 4/T, by hand.
 """
 

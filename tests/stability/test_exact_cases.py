@@ -1,7 +1,7 @@
-"""Whole studies of systems of FMUs whose loops are known exactly, control at every and at every fourth step.
+"""Complete studies of systems of FMUs with exactly known loops, with control at every step and at every fourth step.
 
-Truth: python-control on state spaces written without the FMUs (zero-order hold of the continuous plant). The agreement
-asked for is 0.1 dB and 0.5 deg; rounding allows far more.
+Truth: python-control on state spaces written without the FMUs (zero-order hold of the continuous plant). The required
+agreement is 0.1 dB and 0.5 deg, far above rounding errors.
 """
 
 from dataclasses import replace

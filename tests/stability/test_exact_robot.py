@@ -1,7 +1,7 @@
-"""The robot's loops in closed form against flights of the whole system without noise, and their margins.
+"""The robot's loops in closed form, compared with simulations of the complete system without noise, and their margins.
 
-Truth: two flights that differ in their start, or in an error of the ranger, differ by what the closed form says, since
-the loops are linear below saturation. Crossings by bisection on L(z) and by python-control.
+Truth: two simulations that differ in their initial state, or in an error of the ranger, differ as predicted by the
+closed form, since the loops are linear below saturation. Crossings by bisection on L(z) and by python-control.
 """
 
 import numpy as np

@@ -1,7 +1,8 @@
-"""A loop of FMUs that are not ours, in C by hand and of stock pythonfmu: no memory, no units, so by injection only.
+"""Loop of foreign FMUs, hand-written in C and by stock pythonfmu, without state access or units: injection only.
 
-The law declares no dependencies; it is said to have feedthrough, so that its own step of delay remains. Truth: an
-integrator over one step of delay. With g = gain times step and a = w step, |L| = g/(2 sin(a/2)) and its phase is -pi/2
+The law declares no dependencies; it is treated as having feedthrough, so that only its internal delay of one step
+remains. Truth: an integrator over one step of delay. With g = gain times step and a = w step, |L| = g/(2 sin(a/2)) and
+its phase is -pi/2
 - 3a/2, so the gain margin is 1/g and the phase margin pi/2 - 3 asin(g/2).
 """
 

@@ -1,6 +1,6 @@
-"""A law that does not hold the plan that an operating point freezes is named, before anything is linearised.
+"""A law without the plan that an operating point freezes is named before any linearisation.
 
-Truth: a network operator's command depends on no time, as its block says; its time_to_go is its own.
+Truth: the command of a network operator does not depend on time, and the law computes time_to_go from its state.
 """
 
 import pytest

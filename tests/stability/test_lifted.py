@@ -1,7 +1,7 @@
-"""The lifted model of a periodic system: frequency response, multipliers, what it forgets, what belongs to a cut.
+"""Lifted model of a periodic system: frequency response, multipliers, removable states, states of a cut.
 
-Truth: flights of plain recurrences; python-control's state spaces, of which a time-invariant system sampled
-several times per period is one; matrices whose modes can be read off.
+Truth: simulations of plain recurrences; python-control's state spaces for time-invariant systems sampled several times
+per period; matrices with obvious modes.
 """
 
 import control

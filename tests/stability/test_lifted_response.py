@@ -1,4 +1,4 @@
-"""Frequency responses of the lifted model against dense solves, and of a closed loop against its open loop."""
+"""Frequency responses of the lifted model. Truth: dense solves; for a closed loop, its open loop."""
 
 from __future__ import annotations
 

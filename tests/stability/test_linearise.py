@@ -1,6 +1,6 @@
-"""The linear model and the measurement of systems of FMUs, against the same systems as plain recurrences.
+"""Linear model and measurement of systems of FMUs, compared with the same systems as plain recurrences.
 
-Truth: exact_periodic.py; python-control; the times at which flights are where a point says.
+Truth: exact_periodic.py; python-control; times of operating points in simulations.
 """
 
 import control

@@ -1,4 +1,4 @@
-"""Margins by injection alone, of FMUs whose linear model is left out: crossings are measured, not interpolated.
+"""Margins by injection alone, for FMUs without a linear model: crossings are measured, not interpolated.
 
 Truth: python-control on the loop's state space, as in test_exact_cases.py.
 """

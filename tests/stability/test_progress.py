@@ -1,7 +1,7 @@
-"""A study tells how far it is, whichever process does the work, and is silent where nobody watches.
+"""Progress of a study is shown on a terminal only, whichever process does the work.
 
-Truth: the steps that a study has: a linear model and the channels of each point, three communication steps, the trials
-of a campaign, the intervals of a sweep.
+Truth: the steps of a study: a linear model and the channels of each point, three communication steps, the trials of a
+campaign, the intervals of a sweep.
 """
 
 from dataclasses import replace

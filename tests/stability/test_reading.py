@@ -1,6 +1,6 @@
 """Declared stability of a system, and errors in it, each in one line that names the place.
 
-Truth: the declaration as written, and the number of the line on which its wrong element begins.
+Truth: the declaration as written, and the line number of the wrong element.
 """
 
 import pytest

@@ -1,7 +1,7 @@
-"""The limit cycle of a relay with dead zone, predicted from a linear study and flown, out of FMUs.
+"""Limit cycle of a relay with dead zone in a system of FMUs, predicted from a linear study and simulated.
 
-Truth: harmonic balance solved by hand on python-control's loop gain, with the closed form of the relay's
-describing function (Gelb and Vander Velde 1968, appendix B), and the flight's Fourier series.
+Truth: harmonic balance solved by hand on python-control's loop gain, with the closed form of the relay's describing
+function (Gelb and Vander Velde 1968, appendix B), and the Fourier series of the simulation.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Loops of which no signal returns at the amplitudes of a study, because of a quantiser on the path.
+"""Loops without a returning signal at the amplitudes of a study, because of a quantiser in the loop.
 
-Truth: jets in steps of 0.05 N do not answer a change of a thousandth of that, and dock all the same.
+Truth: jets in steps of 0.05 N do not respond to a change of a thousandth of a step, although the robot docks.
 """
 
 import pytest

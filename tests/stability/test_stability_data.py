@@ -1,6 +1,6 @@
-"""Loop responses and linear models as files: python-control and MATLAB's format read the loop that was studied.
+"""Loop responses and linear models as files, readable by python-control and in MATLAB's format.
 
-Truth: python-control's loop gains of tests/support/loops/exact_systems.py, which know nothing of FMUs; a lifted loop
+Truth: python-control's loop gains of tests/support/loops/exact_systems.py, which are independent of FMUs; a lifted loop
 whose state space at every sample is known; a recurrence that changes from sample to sample.
 """
 

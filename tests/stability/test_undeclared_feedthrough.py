@@ -1,8 +1,8 @@
-"""A satellite with a wheel, whose lag is an FMU in C without `dependencies`: margins in both orders of stepping it.
+"""Satellite with a wheel whose lag is an FMU in C without `dependencies`: margins for both orders of stepping.
 
-Truth: python-control. The lag and the satellite are one continuous plant behind the hold of the control's command; a
-step in either order shifts the lag's answer by less than a step from that. At the control's own rate the two orders are
-known exactly: they differ by one step.
+Truth: python-control. The lag and the satellite are one continuous plant behind the hold of the control's command; in
+either order the response of the lag is shifted by less than one step. At the control rate the two orders are known
+exactly: they differ by one step.
 """
 
 import itertools

@@ -1,4 +1,4 @@
-"""Stability is the whole system's: what a loop neither moves nor sees must not grow either.
+"""Stability of the complete system: states that a loop neither controls nor observes must not grow.
 
 Truth: python-control on the pendulum without its controller; the closed form of its hold.
 """

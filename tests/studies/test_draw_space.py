@@ -1,6 +1,6 @@
-"""Draws as independent standard normal variables and as a box, and back.
+"""Draws as independent standard normal variables and as a box, and inverse maps.
 
-Truth: scipy's distributions; the covariance that is declared; the maps' own inverses.
+Truth: scipy's distributions; the declared covariance; the inverse maps.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Distance of a trial from a failure, by the expression that defines it.
+"""Distance of a trial from failure, by the expression that defines the failure.
 
-Truth: the expression itself, evaluated; differences written out here.
+Truth: the value of the expression; differences written out here.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Studies and comparisons count the flights that crashed wherever they state a number.
+"""Studies and comparisons state the number of crashed simulations with every result.
 
-Truth: the FMU's source, which ends its process where its count is 13; the number of trials with that count is known.
+Truth: the FMU's source, which ends its process if its count is 13; the known number of trials with this count.
 """
 
 from __future__ import annotations

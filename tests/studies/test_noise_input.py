@@ -1,7 +1,7 @@
-"""The noise as one input more of Sobol' indices.
+"""Noise as an additional input of Sobol' indices.
 
 Truth: a sum of draws and noise, whose shares of the variance are known; a product, whose noise acts only together with
-a draw; of flights, the noise held and the same flights again.
+a draw; for simulations, held noise and repeated simulations.
 """
 
 import re

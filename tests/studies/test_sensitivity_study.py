@@ -1,6 +1,6 @@
 """Sensitivity of a system's metrics, by simulation.
 
-Truth: the shares of the variances of a sum; one worker; the flights' own table.
+Truth: the shares of the variances of a sum; one worker; the table of the simulations.
 """
 
 import json

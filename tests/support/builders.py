@@ -1,8 +1,7 @@
-"""Tiny FMUs with known behaviour, and system descriptions written in a few words.
+"""Tiny FMUs with known behaviour, and system descriptions in short form.
 
-The FMUs are built from a file outside the repository, as a user's would be. Their declarations can
-be rewritten (`retouched`) into what our own blocks never declare: enumerations, units with a
-factor, model exchange.
+The FMUs are built from a file outside the repository, as a user's would be. Their declarations can be rewritten
+(`retouched`) into forms that Perilune's blocks never use: enumerations, units with a factor, model exchange.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Age of the FMUs in build/fmus and of the SSDs of systems, compared with their sources."""
+"""Check that the FMUs in build/fmus and the SSDs of systems are not older than their sources."""
 
 from __future__ import annotations
 

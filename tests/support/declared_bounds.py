@@ -1,4 +1,4 @@
-"""Systems that declare the terms of their landing's bound: the lunar landing, with an annotation put in."""
+"""Systems with a declared bound of their landing: the lunar landing with an inserted annotation."""
 
 import shutil
 

@@ -1,4 +1,4 @@
-"""The commands that the documentation gives: blocks of sh and console in pages, and the examples of the verbs."""
+"""Commands in the documentation: sh and console blocks of pages, and examples of the verbs."""
 
 from __future__ import annotations
 

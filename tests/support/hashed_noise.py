@@ -1,4 +1,4 @@
-"""Noise whose distribution is known: a standard normal number of each source for each stream, by hashing the stream."""
+"""Noise of known distribution: a standard normal number of each source for each stream, by hashing the stream."""
 
 import numpy as np
 from scipy.special import ndtri

@@ -1,4 +1,4 @@
-"""Perilune as a user has it: the wheel in a virtual environment, without compiler and without this checkout."""
+"""Perilune as installed by a user: the wheel in a virtual environment, without compiler and without this checkout."""
 
 from __future__ import annotations
 

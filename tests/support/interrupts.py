@@ -1,4 +1,4 @@
-"""Signals at a chosen moment, also where a shell in the background has SIGINT ignored; what a command has started."""
+"""Signals at a chosen moment, also if a background shell ignores SIGINT, and the processes started by a command."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""Numbers of flights of a noisy landing that missed by more than a limit: the truth for rare failures.
+"""Numbers of trials of a noisy landing that miss by more than a limit: the truth for rare failures.
 
-Of `perilune batch lunar_landing --campaign compare --compare guidance=analytic_exact_guidance --trials 200000 --output
-results`, counted by `perilune.open_results("results")`: noisy parameters, which are the default, the campaign's seed.
+They are from `perilune batch lunar_landing --campaign compare --compare guidance=analytic_exact_guidance --trials
+200000 --output results`, counted by `perilune.open_results("results")`, with noisy parameters, the default, and the
+campaign's seed.
 """
 
 CAMPAIGN = ("lunar_landing", "compare")

@@ -1,4 +1,4 @@
-"""Systems as large as one likes: chains of ten different FMUs with ten connections each."""
+"""Systems of any size: chains of ten different FMUs with ten connections each."""
 
 from __future__ import annotations
 

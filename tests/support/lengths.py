@@ -1,6 +1,6 @@
-"""Size of the long checks: all under `make long`, a fraction under `make test`.
+"""Extent of the long checks: complete under `make long`, a fraction under `make test`.
 
-Sample size and seed of randomised tests are from the environment.
+Sample size and seed of randomised tests come from the environment.
 """
 
 import os

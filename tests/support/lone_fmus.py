@@ -1,4 +1,4 @@
-"""FMUs to fly alone, by pythonfmu: dynamic, with outputs that follow inputs at once, one that hangs, one that talks."""
+"""Single FMUs by pythonfmu: dynamic, with direct feedthrough, with a step that hangs, with log messages."""
 
 from __future__ import annotations
 

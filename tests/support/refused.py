@@ -1,4 +1,4 @@
-"""A system of two tiny FMUs, to be broken in one place, and the form of the line that refuses it."""
+"""System of two tiny FMUs, to be altered in one place, and the form of the line that refuses it."""
 
 import re
 from pathlib import Path

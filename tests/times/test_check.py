@@ -1,6 +1,6 @@
-"""`make check`: which tests a change of a room takes.
+"""`make check`: tests selected for a change in a folder.
 
-Truth: imports read by hand, and the definition of what fits.
+Truth: imports read by hand, and the definition of the selection.
 """
 
 from __future__ import annotations

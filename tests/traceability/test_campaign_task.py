@@ -1,4 +1,4 @@
-"""`perilune batch --trace`: requirement, draws, models, flights and verdict of a campaign in one document.
+"""`perilune batch --trace`: requirement, draws, models, trials and verdict of a campaign in one document.
 
 Truth: the folder's files, digested by hashlib; the summary of the same batch.
 """

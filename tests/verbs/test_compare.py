@@ -1,6 +1,6 @@
-"""`perilune compare`: flown for real, its table, JSON and page; exit status of what cannot be compared.
+"""`perilune compare`: table, JSON and page of real simulations; exit status for incomparable batches.
 
-Truth: the batches' own summary.json and trials/; the exit status promised: 0 when compared, 2 for wrong input.
+Truth: summary.json and trials/ of the batches; the documented exit status: 0 if compared, 2 for wrong input.
 """
 
 import json

@@ -1,8 +1,7 @@
-"""Completion in a shell: verbs, options, names of systems, campaigns, sets, slots and FMUs, without loading the
-runtime.
+"""Shell completion of verbs, options and names, without loading the runtime.
 
-Truth: the lists that `perilune list` and the folders have; Python's own record of what was imported. The shell's side,
-environment variables and a file for the answer, is argcomplete's protocol.
+Truth: the output of `perilune list` and the folders; Python's list of imported modules. The shell's side (environment
+variables, and a file for the answer) is argcomplete's protocol.
 """
 
 from __future__ import annotations

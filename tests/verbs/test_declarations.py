@@ -1,6 +1,6 @@
 """Every verb's declaration, its Python function and its parser agree.
 
-Truth: Python's own `inspect.signature`, the parser's actions, and the declaration itself, each derived apart.
+Truth: `inspect.signature`, the parser's actions, and the declaration, each derived separately.
 """
 
 from __future__ import annotations

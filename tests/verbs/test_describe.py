@@ -1,6 +1,7 @@
-"""perilune describe: what is printed of a system, an FMU and a slot is what they declare.
+"""`perilune describe`: the output for a system, an FMU and a slot equals their declarations.
 
-Truth: the SSD and parameter sets read by lxml here, the blocks' declarations, and whether what is said to fit flies.
+Truth: the SSD and parameter sets read by lxml here, the blocks' declarations, and simulation of every FMU listed as
+fitting.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""perilune describe SYSTEM --campaign NAME: the resolved campaign, each value with its file and line.
+"""`perilune describe SYSTEM --campaign NAME`: the resolved campaign, each value with its file and line.
 
-Truth: the printed assignments are TOML that describes the same campaign; the lines named are read here.
+Truth: the printed assignments are TOML of the same campaign; the named lines are read here.
 """
 
 import json

@@ -1,6 +1,6 @@
 """`perilune docs`: the first page of the site, by path or in a browser.
 
-Truth: the path of a site that the test has written, and the address that the browser is asked to open.
+Truth: the path of a site written by the test, and the address that the browser is asked to open.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The exit status of every verb: 0 done and met, 1 done and something is not, 2 refused; in the help and the docs.
+"""Exit status of every verb: 0 if all limits are met, 1 if not, 2 if refused; also in the help and the docs.
 
-Truth: the rule, row by row: what is asked of each command, and what is so of its flights by construction (a thrust of
-1e308 N ends a flight, a second is no landing, a contact that has not happened).
+Truth: the rule, row by row, for simulations with results known by construction (a thrust of 1e308 N ends a simulation,
+one second is too short to land, contact has not occurred).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Mistakes of a new user at the command line: one line that names place and remedy, status 2, nothing written.
+"""Errors of a new user at the command line: one line that names place and remedy, status 2, nothing written.
 
-Truth: the folder before and after; the words are those that a reader needs to find the place. What is wrong inside of
-systems and FMUs is in tests/runtime/system/refusals.
+Truth: the folder before and after; words that a reader needs to find the place. Errors inside systems and FMUs are
+tested in tests/runtime/system/refusals.
 """
 
 from __future__ import annotations

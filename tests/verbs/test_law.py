@@ -1,7 +1,7 @@
 """`perilune design law`: formula, parameter set, drawing, JSON, exit status.
 
-Truth: the same flight with the parameter set as with the system's own published law; the SSP schema;
-mistakes in one line on standard error, exit status 2, and no file left behind.
+Truth: the same simulation with the parameter set and with the published law of the system; the SSP schema; errors in
+one line on standard error, exit status 2, and no remaining file.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""`perilune list` and `perilune validate`: what is there, and what is wrong with it.
+"""`perilune list` and `perilune validate`: available items, and their errors.
 
-Truth: the catalogue, the folders on disk, documents broken in one place.
+Truth: the catalogue, the folders on disk, documents altered in one place.
 """
 
 import json

@@ -1,6 +1,6 @@
 """`perilune design transfer` and `perilune design bound`: text, files, exit status, refusals, missing solvers.
 
-Truth: the published programme and the figures of the same plans from elsewhere; Python's json.
+Truth: the published programme and numbers of the same plans from other programs; Python's json.
 """
 
 import json

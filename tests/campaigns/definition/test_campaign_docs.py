@@ -1,4 +1,4 @@
-"""docs/campaigns.md: its examples are campaigns; the reference of keys names all there is."""
+"""docs/campaigns.md: its examples are valid campaigns; the reference of keys is complete."""
 
 import re
 

@@ -1,6 +1,6 @@
-"""perilune.analysis.campaigns.definition.faults: contents of [fault.NAME], and the fault in each trial.
+"""perilune.analysis.campaigns.definition.faults: content of [fault.NAME], and the fault of each trial.
 
-Truth: the draws of the table, put into the formulas here with Python's floats.
+Truth: the draws of the table, inserted into the formulas here with Python's floats.
 """
 
 import math

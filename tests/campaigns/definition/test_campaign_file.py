@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.definition.file: what a campaign file may contain; everything else is refused by name."""
+"""perilune.analysis.campaigns.definition.file: permitted content of a campaign file; all else is refused by name."""
 
 from dataclasses import replace
 

@@ -1,6 +1,6 @@
-"""Configurations: settings of each, selection, and a simulation equal to that with the same options.
+"""Configurations: settings, selection, and equality with a simulation with the same options.
 
-Truth: the same campaign without configurations, with the options of one on the command line.
+Truth: the same campaign without configurations, with the options of one configuration on the command line.
 """
 
 from pathlib import Path

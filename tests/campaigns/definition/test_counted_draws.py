@@ -1,6 +1,6 @@
 """Draws by a counter, and draws of a table in blocks: permitted dependence of each trial.
 
-Truth: scipy's distributions, numpy's Philox asked by hand, and the same draws in other blocks.
+Truth: scipy's distributions, numpy's Philox called directly, and the same draws in different blocks.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.definition.draws against scipy's distributions, and what each trial may depend on."""
+"""perilune.analysis.campaigns.definition.draws: distributions compared with scipy's, and dependence of each trial."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.definition.expressions against Python's own arithmetic and math module."""
+"""perilune.analysis.campaigns.definition.expressions, compared with Python's arithmetic and math module."""
 
 import math
 import pickle

@@ -1,6 +1,6 @@
-"""perilune.analysis.campaigns.definition.campaign, and how a plan has them.
+"""Groups of trials in perilune.analysis.campaigns.definition.campaign and in plans.
 
-Truth: a dictionary of the trials of each value.
+Truth: a dictionary of the trials for each value.
 """
 
 from collections import defaultdict

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.definition.metrics against closed forms of sampled signals."""
+"""perilune.analysis.campaigns.definition.metrics, compared with closed forms of sampled signals."""
 
 import math
 

@@ -1,7 +1,7 @@
-"""Reductions of rows to numbers, above all settled and first, and what windows do to them.
+"""Reductions of rows to numbers, especially settled and first, with and without windows.
 
 Truth: their definitions in plain Python over exact rationals, on random rows; edge cases by hand; sums of Python floats
-in order; flights together against each alone.
+in order; each simulation evaluated alone.
 """
 
 import math

@@ -1,7 +1,7 @@
 """perilune.analysis.campaigns.definition.sweeps: parameters from low to high in steps, as a grid dispersion.
 
-Truth: exact arithmetic of fractions for the points; a campaign file that declares the same grid itself; the rule that
-what cannot be swept is refused in one line that names --set.
+Truth: exact fractions for the points; a campaign file that declares the same grid; the rule that anything that cannot
+be swept is refused in one line that names --set.
 """
 
 import json

@@ -1,7 +1,7 @@
-"""A campaign with faults that start when its draws say, flown, stored, flown again.
+"""Campaign with faults at drawn times: simulated, stored, and simulated again.
 
-Truth: each row of a ramp and a gain computed here in a few lines; flights of hand-written `perilune.Fault` from the
-table of draws, with equal bits; the same campaign without faults.
+Truth: each row of a ramp and a gain, computed here; simulations with `perilune.Fault` from the table of draws, with
+equal bits; the same campaign without faults.
 """
 
 import json

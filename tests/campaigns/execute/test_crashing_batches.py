@@ -1,6 +1,6 @@
-"""Campaigns whose FMU ends its process in some trials: counted in what they print, simulated again on request.
+"""Campaigns whose FMU ends its process in some trials: these are counted in the output, and simulated again on request.
 
-Truth: the FMU's source, which does so where its count is 13; the batch in one command.
+Truth: the FMU's source, which ends the process if its count is 13; the batch in one command.
 """
 
 from __future__ import annotations

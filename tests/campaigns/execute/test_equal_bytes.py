@@ -1,7 +1,7 @@
-"""Equal campaigns have equal files of trials: whatever limits, links and flavour they were simulated with.
+"""Equal campaigns have equal files of trials, independent of limits, links and flavour.
 
-Truth: the bytes of the files of the campaign as it is usually simulated; for folders of an earlier version the rule by
-which that version named its batches.
+Truth: the files of the campaign simulated with default options; for folders of an earlier version, the naming rule of
+that version.
 """
 
 import hashlib

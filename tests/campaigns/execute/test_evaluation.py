@@ -1,6 +1,6 @@
-"""MetricEvaluator: evaluation of all flights of a task together.
+"""MetricEvaluator: joint evaluation of all trials of a task.
 
-Truth: every metric of every flight evaluated separately, to the bit; statuses and last rows by hand.
+Truth: every metric of every trial evaluated separately, to the bit; statuses and last rows by hand.
 """
 
 import itertools

@@ -1,7 +1,7 @@
-"""Campaigns whose FMU misbehaves in a tenth of its trials, in every way: the same bytes however they are simulated.
+"""Campaigns whose FMU misbehaves in a tenth of its trials, in every way: equal bytes for every way of simulation.
 
-Truth: the same trials of an FMU that does nothing, and the FMU's source, which does so where its count is 13. Under
-`make test` one way of ending the process, under `make long` all.
+Truth: the same trials with an FMU that does not misbehave, and the FMU's source, which misbehaves if its count is 13.
+`make test` covers one way of ending the process, `make long` all.
 """
 
 from __future__ import annotations

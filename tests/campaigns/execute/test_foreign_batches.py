@@ -1,6 +1,6 @@
-"""Campaigns of FMUs that are not ours: metrics do not depend on the number of workers, nor on the order of trials.
+"""Campaigns of foreign FMUs: metrics depend neither on the number of workers nor on the order of trials.
 
-Truth: the closed form of the odd FMU, y(1 s) = gain u + 2 with u = 0.5, on the gains that the table of draws has.
+Truth: the closed form of the odd FMU, y(1 s) = gain u + 2 with u = 0.5, for the gains in the table of draws.
 """
 
 import numpy as np

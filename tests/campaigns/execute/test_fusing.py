@@ -1,6 +1,6 @@
-"""Steps compiled under way, where the trials that are left pay for it.
+"""Fused steps compiled during a campaign, if the remaining trials justify the compilation.
 
-Truth: the same campaign flown as ever, file by file.
+Truth: the same campaign without fused steps, file by file.
 """
 
 import pytest

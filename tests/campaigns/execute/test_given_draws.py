@@ -1,6 +1,6 @@
-"""Supplied samples are simulated as drawn ones are.
+"""Supplied samples are simulated like drawn samples.
 
-Truth: the batch that drew them, to the last bit; the closed form of the odd FMU for others.
+Truth: the batch that drew the samples, to the last bit; the closed form of the odd FMU for other samples.
 """
 
 import numpy as np

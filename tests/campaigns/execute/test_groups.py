@@ -1,6 +1,6 @@
-"""Consecutive flights without a return to Python, among them some that do not reach their end.
+"""Groups of consecutive trials without a return to Python, including trials that end early.
 
-Truth: the same trials with a time limit, which fly one at a time; a replay of each.
+Truth: the same trials with a time limit, which are simulated one at a time; a replay of each trial.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The campaigns of lunar terminal guidance draw the published box (Fomichev and Li 2017)."""
+"""Campaigns of lunar terminal guidance draw from the published box of initial states. Truth: Fomichev and Li 2017."""
 
 from pathlib import Path
 

@@ -1,8 +1,7 @@
-"""[record] trials, and what a stored batch says of its columns: which flights leave traces, the same bits whatever
-the workers; facts, checksums and digests.
+"""Recorded trials and column metadata of a stored batch: trials with traces, equal bits for any workers, checksums.
 
-Truth: the trials that the campaign's text names, counted here; the traces of the same campaign without the key;
-units and types as the blocks declare them.
+Truth: the trials named in the campaign file, counted here; the traces of the same campaign without the key; units and
+types as declared by the blocks.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""The same campaign gives the same bits: whatever the workers, their number, the order of tasks, a replay.
+"""The same campaign gives the same bits for any workers, any order of tasks, and in a replay.
 
-Truth: the campaign flown once in this process, trial by trial in order.
+Truth: the campaign simulated once in this process, trial by trial in order.
 """
 
 import random

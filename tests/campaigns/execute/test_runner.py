@@ -1,7 +1,7 @@
-"""A campaign from file to tables: what is written, when, and what is refused before anything flies.
+"""Campaign from file to tables: written files, their times, and refusals before any simulation.
 
-Truth: columns and fields promised in docs/campaigns.md; draws recomputed from the campaign alone; metrics
-recomputed here with numpy from a flight of `simulate` with the drawn values; rates counted by hand.
+Truth: columns and fields documented in docs/campaigns.md; draws recomputed from the campaign alone; metrics recomputed
+by numpy from `simulate` with the drawn values; rates counted by hand.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""~ Ending of a trial, written and read back.
+"""Texts on the end of a trial, written and read back.
 
-Truth: flights made by hand, whose worst statuses are seen.
+Truth: hand-written outcomes with known worst statuses.
 """
 
 import numpy as np

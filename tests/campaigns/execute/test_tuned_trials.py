@@ -1,4 +1,4 @@
-"""A campaign whose faults change tunable parameters of its trials.
+"""Campaign whose faults change tunable parameters.
 
 Truth: each trial's ramp computed from its draws, whose slope the fault changes between two times; the replay.
 """

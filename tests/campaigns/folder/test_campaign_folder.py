@@ -1,6 +1,6 @@
-"""perilune.analysis.campaigns.folder.campaign_folder: every reader of a folder reads its shards alike.
+"""perilune.analysis.campaigns.folder.campaign_folder: all readers of a folder read its shards in the same way.
 
-Truth: the trials in memory that were written; of damage, the rule that all readers refuse one file in the same words.
+Truth: the written trials in memory; for damage, the rule that all readers refuse a file with the same message.
 """
 
 import json

@@ -1,7 +1,7 @@
-"""perilune.open_results: a campaign's folder opened, whole or flying.
+"""perilune.open_results: complete and incomplete campaign folders.
 
-Truth: the batch in memory that was written, numpy's quantiles, the batch's own summary; the rule that what is missing,
-damaged or of another campaign is refused in one line that names the file.
+Truth: the written batch in memory, numpy's quantiles, the summary of the batch; the rule that a file that is missing,
+damaged or from another campaign is refused in one line that names it.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""docs/studies/results.md: what it asks of two campaigns, and what it shows.
+"""docs/studies/results.md: the output of its code for two campaigns.
 
-Truth: numpy over the files, shard by shard; the lines that the page shows.
+Truth: numpy on the files, shard by shard; the lines on the page.
 """
 
 import doctest

@@ -1,6 +1,6 @@
-"""StoredResults.traces: what flights recorded over time, as an xarray.Dataset.
+"""StoredResults.traces: recorded signals of trials as an xarray.Dataset.
 
-Truth: the traces in memory that were written, some of them cut short first.
+Truth: the written traces in memory, some of which are shortened first.
 """
 
 from dataclasses import replace

@@ -1,8 +1,8 @@
 """perilune.analysis.campaigns.verdicts.acceptance: verdicts on campaigns of a fixed size.
 
-Truth: flights for 0, 1, 2 failures as in the literature (Hanson and Beard, NASA/TP-2010-216447, whose formula is the
-binomial sum; Wilks' 59, 93, 124, ... for 95 % at 95 %, as Guba, Makai and Pal 2003 print them); logarithms; the beta
-distribution of Clopper and Pearson's bounds; the binomial distribution summed up in fractions.
+Truth: numbers of trials for 0, 1, 2 failures in the literature (Hanson and Beard, NASA/TP-2010-216447, whose formula is
+the binomial sum; Wilks' 59, 93, 124, ... for 95 % at 95 %, as printed by Guba, Makai and Pal 2003); logarithms; the
+beta distribution of Clopper and Pearson's bounds; the binomial distribution summed in fractions.
 """
 
 import math

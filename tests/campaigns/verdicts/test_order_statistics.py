@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.verdicts.order_statistics against numpy's sort, held or counted digit by digit."""
+"""perilune.analysis.campaigns.verdicts.order_statistics: selection in memory or digit by digit. Truth: numpy's sort."""
 
 import math
 

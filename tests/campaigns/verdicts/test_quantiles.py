@@ -1,6 +1,6 @@
-"""perilune.analysis.campaigns.verdicts.order_statistics: order statistics, and nothing else anywhere in the product.
+"""Quantiles are order statistics everywhere in the product.
 
-Truth: the order statistic k = ceil(p n) counted in whole numbers, numpy's "inverted_cdf", and the sources themselves.
+Truth: the order statistic k = ceil(p n) in integers, numpy's "inverted_cdf", and the sources.
 """
 
 import ast

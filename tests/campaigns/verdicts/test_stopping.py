@@ -1,8 +1,7 @@
-"""perilune.analysis.campaigns.verdicts.stopping and boundary: verdicts that hold however often a campaign is looked at.
+"""perilune.analysis.campaigns.verdicts.stopping and boundary: verdicts valid for any number of looks at a campaign.
 
-Truth: the probability of every path of failures through the looks, by a recursion of this file in rational numbers or
-over all counts without any of the shortcuts; 10^4 campaigns with known rates; that the same flights in other parts
-give the same verdict.
+Truth: the probability of every path of failures through the looks, by a recursion in rational numbers or over all
+counts without shortcuts; 10^4 campaigns with known rates; equal verdicts for the same trials in different shards.
 """
 
 from fractions import Fraction

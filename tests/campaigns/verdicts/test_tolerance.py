@@ -1,7 +1,7 @@
 """perilune.analysis.campaigns.verdicts.order_statistics: bounds by order statistics.
 
 Truth: the beta distribution of order statistics; samples whose quantiles are known; scipy's quantile test, which is
-built on the same signs.
+based on the same sign statistic.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""`--fault` of `perilune run` and `batch`, and what `perilune compare` says of faults: signals, exit status, pages.
+"""`--fault` of `perilune run` and `batch`, and faults in `perilune compare`: signals, exit status, pages.
 
-Truth: rows of a ramp computed by hand; `perilune.simulate` and `batch` with `perilune.Fault`; what is promised of the
-exit status: 2 and one line for wrong input.
+Truth: rows of a ramp computed by hand; `perilune.simulate` and `batch` with `perilune.Fault`; the documented exit
+status: 2 and one line for wrong input.
 """
 
 import json

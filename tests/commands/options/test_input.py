@@ -1,6 +1,6 @@
 """`perilune run` and `batch` of an FMU alone with `--input`.
 
-Truth: `perilune.simulate` and the closed form of a gain; exit status 2 and one line for a file that is wrong.
+Truth: `perilune.simulate` and the closed form of a gain; exit status 2 and one line for an invalid file.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""A file of the working folder that has the name of a system's own campaign or parameter set.
+"""File of the working folder with the name of a campaign or parameter set of a system.
 
-Truth: what the two files say; the line on standard error, which names both.
+Truth: the contents of the two files; the line on standard error, which names both.
 """
 
 from __future__ import annotations

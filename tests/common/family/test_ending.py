@@ -1,6 +1,6 @@
-"""A process that ends when another one does, on systems whose kernel does not see to it.
+"""A process that ends with another process, on systems whose kernel does not support this.
 
-Truth: the operating system, which says when a process has ended.
+Truth: the operating system, which reports when a process has ended.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""No process of a command outlives it, whatever signal ends the command alone.
+"""No process of a command outlives it, for any signal that ends the command.
 
 Truth: the operating system's list of its descendants, whose work takes far longer: FMUs that hang, a compiler that
 sleeps, a study of many seconds.

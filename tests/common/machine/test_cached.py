@@ -1,6 +1,6 @@
-"""Files of the cache: damaged ones are written again, and an unusable cache is ignored, each in one line.
+"""Files of the cache: damaged files are rewritten, and an unusable cache is ignored, each with one line.
 
-Truth: the content that was written, and the files that there are.
+Truth: the written content, and the existing files.
 """
 
 import errno

@@ -1,6 +1,6 @@
-"""perilune.common.machine.commit: which commit `perilune --version` says.
+"""perilune.common.machine.commit: the commit that `perilune --version` prints.
 
-Truth: git's own `rev-parse` in a repository of the test, and the document of PEP 610.
+Truth: `git rev-parse` in a repository of the test, and the file defined by PEP 610.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Errors of the operating system: each by its own name, with a remedy that fits it."""
+"""Errors of the operating system: each is named, with a suitable remedy."""
 
 import errno
 import os

@@ -1,7 +1,7 @@
-"""Poles placed by the derivative of the state.
+"""Pole placement by feedback of the state's derivative.
 
 Truth: the closed loop's pencil (A, I + B K) by scipy; for one input the gain on the state of scipy's place_poles, times
-the inverse of its closed loop; a motion in which the derivative is fed back with a lag, integrated by scipy.
+the inverse of its closed loop; a motion with lagged feedback of the derivative, integrated by scipy.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Poles placed with integrals of the outputs.
+"""Pole placement with integrals of the outputs.
 
-Truth: a PID in closed form; motions by scipy's matrix exponential in which disturbance and plant are not those of the
-design, and whose rest solves linear equations; zeros by the plant's own transfer function.
+Truth: a PID in closed form; motions by scipy's matrix exponential with a disturbance and a plant that differ from the
+design, whose steady state solves linear equations; zeros of the plant's transfer function.
 """
 
 from __future__ import annotations

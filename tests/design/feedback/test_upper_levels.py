@@ -1,7 +1,7 @@
 """Output feedback through the upper levels.
 
-Truth: eigenvalues of A + B F C by numpy; for the example with a gap the coefficients of its characteristic polynomial,
-which no decoupled F can reach.
+Truth: eigenvalues of A + B F C by numpy; for the example without a decoupled solution, the coefficients of its
+characteristic polynomial.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""The formula of a network operator.
+"""Formula of a network operator.
 
-Truth: the law that the published matrix encodes and the published basic solution, written out here by
-hand (Diveev, Pupkov and Sofronova 2013, their mistakes in print corrected); the printed text read back as
-Python; the blocks' kernel.
+Truth: the law that the published matrix encodes and the published basic solution, written out here by hand (Diveev,
+Pupkov and Sofronova 2013, with misprints corrected); the printed text read back as Python; the blocks' kernel.
 """
 
 import math

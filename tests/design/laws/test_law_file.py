@@ -1,7 +1,7 @@
 """Law files: read, checked, written.
 
-Truth: the published matrices typed in again as edges; the format as documented; hypothesis for there and
-back; one line per mistake that names the file and the cell.
+Truth: the published matrices entered separately as edges; the documented format; property-based round trips; one line
+per error that names the file and the cell.
 """
 
 import json

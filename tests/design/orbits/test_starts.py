@@ -1,6 +1,6 @@
 """Epochs and orbital elements.
 
-Truth: dates that standards publish, Python's calendar; a published example, conservation laws of a conic section.
+Truth: dates published in standards, Python's calendar; a published example, invariants of a conic section.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Generalised Ackermann formula: poles, characteristic polynomials and the set of all gains; the Bass-Gura formula."""
+"""Generalised Ackermann and Bass-Gura formulas: poles, characteristic polynomials, all gains. Truth: numpy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Least condition and least gain: against bounds that are known, and against scipy's place_poles."""
+"""Least condition and least gain. Truth: known bounds, and scipy's place_poles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Placement by controllability indices: any controllable pair."""
+"""Placement by controllability indices for any controllable pair."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Multilevel decomposition: poles of any multiplicity, the identity behind it, and what it refuses."""
+"""Multilevel decomposition: poles of any multiplicity, its identity, and refusals."""
 
 from __future__ import annotations
 

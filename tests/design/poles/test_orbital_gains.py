@@ -1,12 +1,13 @@
-"""Gains for the orbital orientation of a spacecraft whose yaw is not measured, against numbers found elsewhere.
+"""Gains for the orbital attitude of a spacecraft without yaw measurement, compared with numbers from elsewhere.
 
-Orbital frame, absolute rates: x = (roll, yaw, pitch, rates - reference rates), u = moments, measured without yaw.
-Linear about the reference state: A = [A11 I; A21 A22], B = [0; J^-1] with [v] the matrix of v x,
+In the orbital frame, with absolute rates, x = (roll, yaw, pitch, rates - reference rates) and u = torques; all states
+except yaw are measured. The model is linear about the reference state: A = [A11 I; A21 A22], B = [0; J^-1], where [v]
+is the matrix of v x,
 
     A11 = [0 -w0 0; w0 0 0; 0 0 0]    A22 = J^-1 ([J wp] - [wp] J)    wp = (0, 0, -w0)    e2 = (0, 1, 0)
     A21 = 3 w0^2 J^-1 ([e2] J - [J e2]) [0 0 1; 0 0 0; -1 0 0].
 
-The numbers are those of the specification of the task; the closed forms of gains are for one unmeasured state.
+The numbers are from the specification of the task; the closed forms of gains are for one unmeasured state.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
-"""The set of all output feedbacks: it has m p numbers, and contains every feedback found otherwise.
+"""Set of all output feedbacks: it has m p parameters and contains every feedback found by other methods.
 
-Output feedback that is free of a parameter of the plant: the published example, and plants constructed to have one.
+Output feedback independent of a plant's parameter: the published example, and plants constructed to have such a
+feedback.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The code of docs/modal_synthesis.md, run from its beginning to its end, prints what the page says.
+"""Code of docs/modal_synthesis.md: executed in order, it prints the output on the page.
 
-Truth: what the page prints is held by the other tests of this folder; here only that a reader gets the same.
+Truth: the page. The numbers themselves are verified by the other tests of this folder.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The public face of state feedback: which method, which sign, and one line for what is wrong."""
+"""Public interface of state feedback: choice of method, sign, and one line per error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plants under pulses: against an integrator that stops at every switch-off, a zero-order hold, and differences."""
+"""Plants driven by pulses. Truth: an integrator that stops at every switch-off, a zero-order hold, differences."""
 
 from __future__ import annotations
 

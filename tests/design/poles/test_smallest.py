@@ -1,4 +1,4 @@
-"""The smallest output feedback in the set of those with the poles."""
+"""Smallest output feedback among all with the required poles."""
 
 from __future__ import annotations
 

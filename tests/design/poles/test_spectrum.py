@@ -1,4 +1,4 @@
-"""Required spectra: read, converted to real matrices, spread over levels."""
+"""Required spectra: validation, real matrices, distribution over levels."""
 
 from __future__ import annotations
 

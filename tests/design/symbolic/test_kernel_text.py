@@ -1,6 +1,6 @@
 """Formulas as kernel functions: accepted by the translator, the same bits as Python and as C.
 
-Truth: the formula itself at random values, to 30 digits.
+Truth: the formula at random values, to 30 digits.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Gains as formulas in symbols.
 
-Truth: the formulas that docs/systems/orbital_attitude.md and entry_attitude.md print, by sympy's own algebra; the
-numeric routes of `perilune.modal` at random values; characteristic polynomials.
+Truth: the formulas in docs/systems/orbital_attitude.md and entry_attitude.md, by sympy's algebra; the numeric methods
+of `perilune.modal` at random values; characteristic polynomials.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Checkpoints: an interrupted search continues to the very same result.
+"""Checkpoints: an interrupted search continues to exactly the same result.
 
-Truth: the same search without interruption, compared in everything it holds, to the last bit.
+Truth: the same search without interruption, compared in its complete state, to the last bit.
 """
 
 import json

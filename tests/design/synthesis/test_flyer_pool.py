@@ -1,6 +1,6 @@
-"""Workers that keep a flyer: what they do with tasks of any kind.
+"""Pool of simulation workers: results of tasks of any kind.
 
-Truth: the tasks' own results; how many of them ran.
+Truth: the results of the tasks, and the number that ran.
 """
 
 import threading

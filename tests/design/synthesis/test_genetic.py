@@ -1,7 +1,6 @@
-"""The variational genetic algorithm on a cheap problem: finding a known formula.
+"""Variational genetic algorithm on a cheap problem: search for a known formula.
 
-Truth: the formula itself; what must not change a search (evaluators that give up early, knowing laws
-already); what a population must keep.
+Truth: the formula; independence of a search from early rejection and known laws; invariants of a population.
 """
 
 from dataclasses import replace

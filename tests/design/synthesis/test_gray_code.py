@@ -1,7 +1,7 @@
 """Parameters in Gray code.
 
-Truth: the reflected binary code of three bits as printed in textbooks; what makes a code a Gray code
-(every number once, neighbours one bit apart); fixed point worked out in exact fractions.
+Truth: the reflected binary code of three bits as printed in textbooks; the definition of a Gray code (every number
+once, neighbours one bit apart); fixed-point numbers in exact fractions.
 """
 
 from fractions import Fraction

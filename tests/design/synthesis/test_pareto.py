@@ -1,7 +1,6 @@
 """Pareto's order.
 
-Truth: the definition, written out pair by pair; Pareto sets worked by hand; properties that an order has to
-have for early rejection to be safe.
+Truth: the definition, pair by pair; Pareto sets by hand; properties of the order that make early rejection safe.
 """
 
 import math

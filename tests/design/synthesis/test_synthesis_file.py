@@ -1,7 +1,7 @@
 """The TOML file of a synthesis.
 
-Truth: the keys as documented; every mistake in one line that names the file and the place; the reference of keys
-and the fields of the settings name the same keys with the same defaults.
+Truth: the documented keys; every error in one line that names the file and the place; equal keys and defaults in the
+reference of keys and in the settings.
 """
 
 import re

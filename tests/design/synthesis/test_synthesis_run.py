@@ -1,4 +1,4 @@
-"""A synthesis in a co-simulated system.
+"""Synthesis of a law in a co-simulated system.
 
 Truth: `perilune.batch` with the same law, draws and random streams; the same search with other numbers of
 workers, or without interruption.

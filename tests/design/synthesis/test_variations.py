@@ -1,7 +1,7 @@
 """Variations of a network operator.
 
-Truth: what a network operator has to stay, checked on the matrix with a transitive closure in numpy;
-evaluation by the blocks' own kernel, before and after.
+Truth: the properties of a network operator, checked on the matrix with a transitive closure in numpy; evaluation by the
+blocks' kernel, before and after.
 """
 
 import math

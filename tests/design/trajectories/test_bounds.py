@@ -1,7 +1,8 @@
 """perilune.analysis.design.trajectories: convex form of the point-mass problem, least time, direct method.
 
-Truth: the same problem by a direct method, in which nothing is convex; Lawden's primer vector, which is linear in time
-in uniform gravity (Lawden 1963); the motion integrated by scipy; straight down, a free fall and a burn in closed form.
+Truth: the same problem by a direct method without convexification; Lawden's primer vector, which is linear in time in
+uniform gravity (Lawden 1963); the motion integrated by scipy; for a vertical descent, a free fall and a burn in closed
+form.
 """
 
 import math

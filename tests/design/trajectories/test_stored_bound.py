@@ -1,4 +1,4 @@
-"""perilune.analysis.design.trajectories.declared_bound and stored_bound: a system's bound, stored with its hash.
+"""perilune.analysis.design.trajectories.declared_bound and stored_bound: bound of a system, stored with its hash.
 
 Truth: the parameter sets of the system; geometry in closed form; SHA-256 by hashlib.
 """

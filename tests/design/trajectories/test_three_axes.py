@@ -1,7 +1,7 @@
 """The convex form in three axes with tilt and glide slope.
 
-Truth: Clarabel in another formulation (dense, gravity held at nodes), the plan of the blocks' own interior point, and
-the two-axes form in a plane that is turned; derivatives by differences; what limits are, at the nodes of a path.
+Truth: Clarabel in another formulation (dense, gravity held at nodes), the plan of the blocks' interior-point method,
+and the two-axis form in a rotated plane; derivatives by differences; limits checked at the nodes of a path.
 """
 
 import math

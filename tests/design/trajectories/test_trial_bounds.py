@@ -1,6 +1,6 @@
 """`perilune design bounds`: the table of each trial's bound, and the metric that compares flights with it.
 
-Truth: Clarabel in another formulation, at the duration that is stored; SHA-256 by hashlib; propellant over the bound.
+Truth: Clarabel in another formulation, at the stored duration; SHA-256 by hashlib; propellant over the bound.
 """
 
 import csv

@@ -1,4 +1,4 @@
-"""perilune.analysis.design.transfers.adjoint: costates along the optimum, and the conditions that they decide.
+"""perilune.analysis.design.transfers.adjoint: costates along the optimum, and its optimality conditions.
 
 Truth: the paper's equations of motion and adjoint equations (Huang 2017) as printed, in its n1, p and tm, integrated by
 scipy's DOP853; the least propellant of other distances and descents, whose differences are psi1 and psi3; the order of

@@ -1,7 +1,8 @@
-"""perilune.analysis.design.transfers.finite_switches: the best profile of the form that equation (3) of Huang 2017 has.
+"""perilune.analysis.design.transfers.finite_switches: best profile of the form of equation (3) in Huang 2017.
 
 Truth: the paper's equations integrated by scipy's DOP853 with pitch as a state, driven on the tangent law by the second
-derivative of the law's angle; the true optimum, which has no such form, and the simplified programme on either side.
+derivative of the law's angle; bounds by the true optimum, which is not restricted to this form, and by the simplified
+programme.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""perilune.analysis.design.transfers.free_fall: the lander becomes vertical in free fall and brakes once more.
+"""perilune.analysis.design.transfers.free_fall: the lander turns to the vertical in free fall and brakes once more.
 
 Truth: the equations of motion integrated by scipy's DOP853, with pitch as a state driven by the switched angular
 acceleration; a burn of constant deceleration in closed form; other programmes with the same end by scipy's `root`.

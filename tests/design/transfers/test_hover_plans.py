@@ -1,7 +1,7 @@
-"""perilune.analysis.design.transfers: the programme for people, its sweeps, the true optimum.
+"""perilune.analysis.design.transfers: the simplified programme, its sweeps, the true optimum.
 
-Truth: Huang 2017, tables and figures 3 and 7, and figures of the same problem by other programs; motion integrated by
-scipy; no plan takes less than the bound.
+Truth: Huang 2017, tables and figures 3 and 7, and numbers for the same problem from other programs; motion integrated
+by scipy; no plan uses less propellant than the bound.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""docs.figures.demo and the figure of the README, flown for real with few trials."""
+"""docs.figures.demo and the figure of the README, from real simulations of a few trials."""
 
 import numpy as np
 import pyarrow.parquet

@@ -1,6 +1,6 @@
-"""The capsule's gains: what is stored is what its table gives, poles by numpy, figures of another program.
+"""Gains of the capsule: stored values equal the computed table; poles; numbers from another program.
 
-Truth: eigenvalues of the closed loop (1e-6), the gains and norms that another program has, to the digits printed.
+Truth: eigenvalues of the closed loop (1e-6), and gains and norms from another program, to the digits printed.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The pictures of the documentation: small, shown by a page, one at least for each system's page; drawn by the sources.
+"""Pictures of the documentation: small, used by a page, at least one for each system's page, and drawn by the sources.
 
 Truth: the files in git and the pages; an SVG path written out by hand.
 """

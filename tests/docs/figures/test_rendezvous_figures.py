@@ -1,4 +1,4 @@
-"""The figures of docs/systems/robot_rendezvous.md: reproduced, labelled, small, and those that the text shows."""
+"""Figures of docs/systems/robot_rendezvous.md: reproduced, labelled, small, and used by the text."""
 
 import re
 

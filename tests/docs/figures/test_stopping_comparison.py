@@ -1,6 +1,6 @@
 """docs.figures.stopping_comparison: the tables of docs/theory/stopping.md.
 
-Truth: campaigns flown by dice, many of each kind; the page.
+Truth: simulated random outcomes of many campaigns of each kind; the page.
 """
 
 import numpy as np

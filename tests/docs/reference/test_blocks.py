@@ -1,6 +1,6 @@
-"""The page of a block says what its class declares, and its docstring says what it has to.
+"""Page of a block: all declarations of its class, and the required sections of its docstring.
 
-Truth: the model description that is built from the same class and read back by FMPy; the classes themselves.
+Truth: the model description built from the same class and read by FMPy; the classes.
 """
 
 from __future__ import annotations

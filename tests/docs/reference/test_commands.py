@@ -1,7 +1,7 @@
-"""Every command that the documentation gives does what a reader expects of it, in order, page by page.
+"""Every command in the documentation runs with the documented result, in order, page by page.
 
-Truth: the exit status of the console command itself. What flies for minutes is led up to its first flight here, by the
-same path: options read, names looked up, system and campaign prepared. `make long` flies it.
+Truth: the exit status of the console command. A command of several minutes is executed here only up to its first
+simulation (options read, names resolved, system and campaign prepared); `make long` runs it completely.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The pages that are derived for the site: verbs, slots, the Python interface, the front pages; and files as text.
+"""Derived pages of the site: verbs, slots, the Python interface, the front pages; and files as text.
 
-Truth: argparse's own help, the public names, the pages' sources; a site with known mistakes.
+Truth: argparse's help, the public names, the sources of the pages; a site with known errors.
 """
 
 from __future__ import annotations

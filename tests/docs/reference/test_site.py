@@ -1,4 +1,4 @@
-"""The site as it is built: strict, and complete without a network or a server.
+"""Built documentation site: without warnings, and complete without network or server.
 
 Truth: the built files, read by lxml; a browser that opens them as files.
 """

@@ -1,6 +1,6 @@
 """Charts of errors, curves and bands that the shipped systems declare.
 
-Truth: the same plots drawn by matplotlib, read back out of its figures.
+Truth: the same plots drawn by matplotlib, read back from its figures.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Figures of any width in a real browser, on a telephone and on a wide screen.
+"""Figures of variable width in a real browser, on a phone and on a wide screen.
 
-Truth: what the browser lays out, the texts and the area of the axes that the script draws over.
+Truth: the layout of the browser; texts and axes area of the picture over which the script draws.
 """
 
 from __future__ import annotations

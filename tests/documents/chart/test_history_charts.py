@@ -1,7 +1,7 @@
 """Charts of signals over time, and their pictures.
 
-Truth: the same panels drawn by matplotlib, read back out of its figure; points of the path by the formula of a straight
-line through the ends of the axes.
+Truth: the same panels drawn by matplotlib, read back from its figure; points of the path by linear interpolation
+between the ends of the axes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Areas of steps, dashed circles.
+"""Areas between steps, and dashed circles.
 
 Truth: matplotlib's areas between steps; the equation of a circle.
 """

@@ -1,6 +1,6 @@
 """Charts of paths, and of bands over another signal.
 
-Truth: the same drawn by matplotlib, read back out of its figures.
+Truth: the same charts drawn by matplotlib, read back from its figures.
 """
 
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Charts drawn by matplotlib. Truth: the same charts, read back out of its figure."""
+"""Charts drawn by matplotlib. Truth: the same charts, read back from the figure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Outlines of marks and ticks of logarithmic axes. Truth: those of matplotlib."""
+"""Outlines of marks and ticks of logarithmic axes. Truth: matplotlib's outlines and ticks."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The ends and ticks of axes.
+"""Limits and ticks of axes.
 
-Truth: matplotlib's MaxNLocator and the limits of axes that it scales to a line.
+Truth: matplotlib's MaxNLocator and its automatic limits of axes.
 """
 
 from __future__ import annotations

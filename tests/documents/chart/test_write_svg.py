@@ -1,7 +1,7 @@
 """Pictures of charts of any axes.
 
-Truth: the formula of a straight line between the ends of an axis, of logarithms where it is logarithmic; the number
-of marks; the lengths of what has equal units.
+Truth: linear interpolation between the ends of an axis (of logarithms on a logarithmic axis); the number of marks;
+equal lengths of equal units.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Pages in a real browser: they load, lay out and paint, and fetch nothing."""
+"""Pages in a real browser: they load, render and request no other resources. Truth: the browser."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Colours of pages are declared once, and texts in them can be read in light and dark.
+"""Colours of pages are declared once, and coloured texts have sufficient contrast in light and dark mode.
 
 Truth: relative luminance and contrast of WCAG 2.2, section 1.4.3, whose least ratio for text is 4.5.
 """

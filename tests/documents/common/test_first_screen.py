@@ -1,6 +1,6 @@
-"""First screen of pages, and the ways to the rest: contents, search, keys, with scripts and without.
+"""First screen of pages and navigation from there: contents, search, keys, with and without scripts.
 
-Truth: what a browser lays out, and the words of the page.
+Truth: the layout of a browser, and the words of the page.
 """
 
 import re

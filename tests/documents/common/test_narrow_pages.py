@@ -1,6 +1,6 @@
-"""Every kind of page on a telephone and on a wide screen: its figures can be read, and nothing runs out of the screen.
+"""Every kind of page on a phone and on a wide screen: figures are legible, and nothing overflows the screen.
 
-Truth: the heights and widths that a browser lays out; 11 px is the least that is asked of text in figures.
+Truth: heights and widths in the layout of a browser; text in figures has at least 11 px.
 """
 
 import pytest

@@ -1,6 +1,6 @@
-"""Number of sheets of pages, and notes on paper about omitted content.
+"""Printed pages: number of sheets, and notes on omitted content.
 
-Truth: the sheets that a browser prints, on letter and, in full length, on A4.
+Truth: the sheets printed by a browser, on letter paper and on A4.
 """
 
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""A figure as an SVG document: what matplotlib's own savefig writes of it, and the figure as it was.
+"""Figure as an SVG document: equal to the output of matplotlib's savefig, without changes to the figure.
 
 Truth: matplotlib's savefig, to the byte.
 """

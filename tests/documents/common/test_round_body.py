@@ -1,6 +1,6 @@
 """perilune.analysis.documents.common.round_body against spherical trigonometry.
 
-Truth: orbits with known angles along and across a great circle, turned about the body's centre.
+Truth: orbits with known angles along and across a great circle, rotated about the body's centre.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Ticks of axes at any ends: a few round numbers within them, and no axis freezes the browser.
+"""Ticks of axes with arbitrary limits: a few round numbers within the limits, computed in bounded time.
 
-Truth: whole numbers and powers of ten, in exact arithmetic.
+Truth: integers and powers of ten, in exact arithmetic.
 """
 
 import itertools

@@ -1,4 +1,4 @@
-"""Any graph is drawn readably, in one row or several.
+"""Diagrams of arbitrary graphs are legible, in one row or several.
 
 Truth: the edges of the graph, and the geometry of the SVG.
 """

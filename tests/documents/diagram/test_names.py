@@ -1,6 +1,6 @@
-"""Names of others in a diagram are text and nothing else, however they are written.
+"""Foreign names in a diagram are always shown as plain text.
 
-Truth: lxml reads the same names back, in SVG and in JSON; the page has no element more than with plain names.
+Truth: lxml reads the same names back, in SVG and in JSON; the page has the same elements as with plain names.
 """
 
 import json

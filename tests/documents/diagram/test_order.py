@@ -1,6 +1,6 @@
-"""The order of blocks, and where columns are cut into rows.
+"""Order of blocks in a diagram, and division of its columns into rows.
 
-Truth: all orders and all cuts, tried one by one; Eades, Lin and Smyth's bound.
+Truth: enumeration of all orders and divisions; Eades, Lin and Smyth's bound.
 """
 
 from itertools import combinations, permutations

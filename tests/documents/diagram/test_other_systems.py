@@ -1,6 +1,6 @@
-"""Diagrams of systems that hold others, of signal dictionaries, sums, single elements, conversions, lone FMUs.
+"""Diagrams of nested systems, signal dictionaries, sums, single elements, conversions, and single FMUs.
 
-Truth: what the descriptions written here connect, and the geometry of the SVG.
+Truth: the connections in the descriptions written here, and the geometry of the SVG.
 """
 
 from collections import Counter

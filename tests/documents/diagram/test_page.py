@@ -1,6 +1,6 @@
-"""The page of `perilune describe --report`, and the diagram in that of a run: files, browser, paper.
+"""Page of `perilune describe --report`, and the diagram on the page of a run: files, browser, paper.
 
-Truth: the SSD as lxml reads it, and what chromium shows and prints.
+Truth: the SSD as read by lxml, and the display and print of Chromium.
 """
 
 import re

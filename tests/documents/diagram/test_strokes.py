@@ -1,6 +1,6 @@
-"""Lines that run together are drawn once.
+"""Overlapping lines of a diagram are drawn once.
 
-Truth: the points of a raster, each of which belongs to the line and to no earlier one.
+Truth: raster points, each of which belongs to the line and to no earlier line.
 """
 
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""The block diagrams of all systems: every connection once, lines from port to port, nothing over anything else.
+"""Block diagrams of all systems: every connection once, lines from port to port, no overlaps.
 
 Truth: the connections of the SSD as lxml reads them, and the geometry of the SVG.
 """

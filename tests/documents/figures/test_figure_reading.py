@@ -1,4 +1,4 @@
-"""Declared figures of a system, and their errors, each in one line that names the place.
+"""Declared figures of a system, and errors in declarations, each in one line that names the place.
 
 Truth: the declaration as written, the number of the line on which its wrong element begins, and the factors of units.
 """

@@ -1,4 +1,4 @@
-"""Figures and scenes of a system that names the axes of its frames.
+"""Figures and scenes of a system that declares names for the axes of its frames.
 
 Truth: the names as declared.
 """

@@ -1,6 +1,6 @@
-"""The figures of a flight of landing_mission.
+"""Figures of a simulation of landing_mission.
 
-Truth: what the sequencer says of its phases' times, the record of the mass at them, and the monitor of the contact.
+Truth: phase times reported by the sequencer, recorded masses at these times, and the outputs of the contact monitor.
 """
 
 import re

@@ -1,6 +1,6 @@
-"""The figures that a system asks for, on the page of a run.
+"""Figures declared by a system, on the page of a run.
 
-Truth: hand-written histories with closed-form answers; and of a flight its own record, counted here row by row.
+Truth: hand-written histories with closed-form results; for a simulation, its record, counted here row by row.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The reference of figures names all that a system can ask of its page."""
+"""The reference of figures documents every key of declarations. Truth: the keys accepted by the parser."""
 
 import re
 from pathlib import Path

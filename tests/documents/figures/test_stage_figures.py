@@ -1,6 +1,6 @@
 """Phases, budgets, limits, paths and curves on the page of a run.
 
-Truth: a hand-written run with known phases, sums and places.
+Truth: a hand-written run with known phases, sums and positions.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Phases, budgets, limits, paths and curves that a system asks for, and that everything wrong in them names its place.
+"""Declared phases, budgets, limits, paths and curves of a system, and errors that name their place.
 
 Truth: the declaration as written, the number of the line on which its wrong element begins, and the factors of units.
 """

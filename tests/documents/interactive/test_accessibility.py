@@ -1,4 +1,4 @@
-"""A run's page and a batch's have no serious fault of accessibility, light and dark.
+"""Pages of a run and a batch have no serious accessibility violation, in light and dark mode.
 
 Truth: axe-core's rules.
 """

@@ -1,6 +1,6 @@
-"""Names of others inside a page are data of its document and nothing else, however they are written.
+"""Foreign names inside a page are always pure data of its document.
 
-Truth: the name that went in; HTML ends a script's text at the first "</script" alone, and none has a "<".
+Truth: the original name; HTML ends the text of a script only at "</script", and the embedded data contains no "<".
 """
 
 import json

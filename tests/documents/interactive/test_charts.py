@@ -1,6 +1,6 @@
-"""Figures as numbers: what matplotlib drew, with its units, marks and ends.
+"""Figures as data: everything drawn by matplotlib, with units, marks and limits.
 
-Truth: what was handed to matplotlib.
+Truth: the data passed to matplotlib.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Columns inside a page: what its script decodes is what went in.
+"""Columns embedded in a page: the script decodes the original values.
 
-Truth: float32 as numpy rounds it; for 16 bits half a step of the column's range, and the derivative of sinh.
+Truth: float32 as rounded by numpy; for 16 bits, half a step of the column's range, and the derivative of sinh.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""The figures of a run's page answer: values at the cursor, zoom, by pointer, by keys and by touch, on paper as before.
+"""Interactive figures of a run's page: values at the cursor and zoom, by pointer, keys and touch; unchanged on paper.
 
-Truth: the flight's table (parquet), rounded to float32, in the digits of the page's tables.
+Truth: the table of the run (parquet), rounded to float32, with the digits of the page's tables.
 """
 
 from __future__ import annotations

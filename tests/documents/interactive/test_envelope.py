@@ -1,6 +1,6 @@
-"""The envelope of a line of many rows: nothing of it is outside, and its extremes are there.
+"""Envelope of a line with many rows: it contains every point and attains the extremes.
 
-Truth: least and greatest value of each span, by a loop over its rows.
+Truth: minimum and maximum of each span, by a loop over its rows.
 """
 
 from itertools import pairwise

@@ -1,9 +1,9 @@
-"""Every figure of every kind of page says with scripts what its picture says without.
+"""Every figure of every kind of page shows with scripts the same content as its picture without scripts.
 
-Truth: the picture, as matplotlib drew it: its texts and where they stand, its lines at ten instants, its ink. Which
-figures remain pictures is stated here, and which kind of page has which template: a template that is added to the
-product is named as untested until there is a kind with it. Pages inside FMUs have no figure; of laws there is no page
-but a drawing, and of results in notebooks one picture.
+Truth: the picture drawn by matplotlib: its texts and their positions, its lines at ten instants, its ink. This file
+lists figures that remain pictures, and the template of each kind of page: a template added to the product is reported
+as untested until a kind of page uses it. Pages inside FMUs have no figure, a law has a drawing instead of a page, and
+results in notebooks have one picture.
 """
 
 import functools

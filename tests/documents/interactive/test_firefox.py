@@ -1,6 +1,6 @@
-"""Pages in Firefox: curves, diagram and marks answer, the scene is drawn or said to be absent.
+"""Pages in Firefox: curves, diagram and marks are interactive, the scene is drawn or reported as unavailable.
 
-`make browser-firefox` runs it. Truth: the flight's table, and the batch's.
+`make browser-firefox` runs this file. Truth: the tables of the run and of the batch.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""From a mark on a batch's page to what its trial recorded: plots next to its numbers, and the scene of all flights.
+"""From a mark on a batch's page to the record of its trial: plots next to its numbers, and the scene of all trials.
 
-Truth: the campaign's own traces and table.
+Truth: the traces and the table of the campaign.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""A page has the licences of what is inside it, whole.
+"""Pages contain the full licences of embedded software.
 
-Truth: the licence files of the packages, and names that their minified code still has.
+Truth: the licence files of the packages, and names that remain in their minified code.
 """
 
 import pytest

@@ -1,6 +1,6 @@
-"""On a telephone every control of a page is within the screen and large enough for a finger.
+"""On a phone every control of a page is within the screen and large enough for a finger.
 
-Truth: what the browser lays out; 40 px.
+Truth: the layout of the browser; at least 40 px.
 """
 
 import pytest

@@ -1,6 +1,6 @@
-"""Numbers at the cursor have the digits of the tables.
+"""Numbers at the cursor have the same digits as the tables.
 
-Truth: the function that writes the tables, in Python.
+Truth: the Python function that writes the tables.
 """
 
 import math

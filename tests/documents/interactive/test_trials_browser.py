@@ -1,6 +1,6 @@
-"""From a mark on a batch's page to its trial: by pointer and by keys, the command that simulates it again, a brush.
+"""From a mark on a batch's page to its trial, by pointer and by keys: replay command, and brush.
 
-Truth: the campaign's own table; what the copied command prints when it is run.
+Truth: the table of the campaign; the output of the copied command.
 """
 
 from __future__ import annotations

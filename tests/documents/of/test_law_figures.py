@@ -1,7 +1,7 @@
-"""The drawing of a law.
+"""Drawing of a law.
 
-Truth: what a layered drawing has to be (edges lead to the right by layers of longest paths, places keep their
-distance); crossings counted by the geometry of the segments; small graphs whose best drawing is known.
+Truth: the properties of a layered drawing (edges lead to the right by layers of longest paths, minimum distances of
+nodes); crossings counted by the geometry of the segments; small graphs with known best drawings.
 """
 
 import itertools

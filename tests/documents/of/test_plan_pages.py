@@ -1,6 +1,6 @@
-"""The pages of plans: their content, nothing fetched, the same bytes every time; in a browser, wide and narrow.
+"""Pages of plans: content, no requests, reproducible bytes; rendering in a browser, wide and narrow.
 
-Truth: the studies that they show; the widths that the browser lays out.
+Truth: the displayed studies; the widths in the layout of the browser.
 """
 
 import math

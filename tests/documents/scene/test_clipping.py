@@ -1,6 +1,6 @@
-"""Parts of a line that a picture shows, and parts that the ground hides.
+"""Clipping of lines to a picture, and lines hidden by the ground.
 
-Truth: many points of the line, each compared with the picture's edges or the ground itself.
+Truth: many points of the line, each compared with the edges of the picture or with the ground.
 """
 
 import math

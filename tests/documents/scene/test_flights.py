@@ -1,6 +1,7 @@
-"""Several flights in one scene.
+"""Several trajectories in one scene.
 
-Truth: the positions and attitudes of each flight at its own samples, from its signals by scipy; straight lines between.
+Truth: positions and attitudes of each trajectory at its samples, from its signals by scipy; straight lines between
+samples.
 """
 
 from dataclasses import replace

@@ -1,7 +1,7 @@
 """Pictures of a scene for pages without scripts.
 
-Truth: a pinhole camera of a few lines, scipy's Rotation, the dip of the horizon of a sphere, and rays: of all facets
-on a ray the nearest one comes last.
+Truth: a pinhole camera of a few lines, scipy's Rotation, the dip of the horizon of a sphere, and rays: of all facets on
+a ray the nearest is drawn last.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Position and rotation of a body of a scene, in each form in which a system can declare them.
+"""Position and rotation of a body in a scene, in every form of declaration.
 
 Truth: scipy's Rotation, the matrices of docs/systems/orbital_attitude.md and entry_attitude.md, Cartesian coordinates
 of points on a sphere, the theorem of Gauss and Bonnet, and the direction of motion.

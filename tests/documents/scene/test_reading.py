@@ -1,6 +1,6 @@
 """Declarations of a Scene, and their errors, each in one line that names the element.
 
-Truth: the declaration as written, and the number of the line on which its wrong element begins.
+Truth: the declaration as written, and the line number of the wrong element.
 """
 
 import shutil

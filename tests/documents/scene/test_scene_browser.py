@@ -1,7 +1,6 @@
-"""The scene of a run's page in a browser: drawn by software WebGL, moved by pointer, keys and touch, and what is said
-where there is no WebGL.
+"""Scene of a run's page in a browser: software WebGL, control by pointer, keys and touch, message without WebGL.
 
-Truth: the samples of the run in float32, and what a picture shows or does not show.
+Truth: the samples of the run in float32, and the visible and hidden content of pictures.
 """
 
 import io

@@ -1,8 +1,7 @@
-"""Stored data of a page on the scenes of our systems, and its texts.
+"""Stored data and texts of the scenes of shipped systems on a page.
 
-Truth: scipy's Rotation on the signals of the flight, a field in two frames, the ground's sphere, the time for which the
-plant says that its jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a
-meaning.
+Truth: scipy's Rotation on the signals of the run, a field in two frames, the sphere of the ground, the firing time of
+jets reported by the plant, the jets' matrix of the robot, and texts with a special meaning in HTML or JSON.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""Margins over the time of flight: which loops are one line, what is drawn of them, and where the figure stands.
+"""Margins over the time of flight: loops drawn as one line, content and place of the figure.
 
-Truth: python-control's crossings of the late double integrator with other gains, one for each time.
+Truth: python-control's crossings of the delayed double integrator, with a different gain for each time.
 """
 
 from dataclasses import replace

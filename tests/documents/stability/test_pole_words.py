@@ -1,7 +1,7 @@
-"""Texts of a stability page on single real poles and on encirclements that are not counted.
+"""Texts of a stability page on single real poles and on encirclements that cannot be counted.
 
-Truth: a first-order loop whose pole z is negative, which has no conjugate; a loop with a pole that is slower than the
-lowest frequency, whose count is no whole number while its closed loop is stable.
+Truth: a first-order loop with a negative real pole z; a loop with a pole below the lowest frequency, whose encirclement
+count is not an integer although its closed loop is stable.
 """
 
 from dataclasses import replace

@@ -1,6 +1,6 @@
-"""Figures of several loops that nobody could tell apart are drawn once, and nothing else is left out.
+"""Indistinguishable figures of several loops are drawn once, and no other figures are omitted.
 
-Truth: loops derived from one another, whose responses differ by as much as is said.
+Truth: loops derived from one another, whose responses differ by known amounts.
 """
 
 from dataclasses import replace

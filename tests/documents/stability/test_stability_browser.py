@@ -1,6 +1,6 @@
-"""The stability page in a real browser, wide and narrow, all sections open: it paints, and nothing runs out of it.
+"""Stability page in a real browser, wide and narrow, with all sections open: it renders, and nothing overflows.
 
-Truth: the page's own figures and colours; the widths that the browser lays out.
+Truth: the figures and colours of the page; the widths in the layout of the browser.
 """
 
 import html

@@ -1,4 +1,4 @@
-"""The figures of a stability study, as they are drawn and as its page has them.
+"""Figures of a stability study, as drawn and as embedded in its page.
 
 Truth: python-control's margins and responses of the tiny systems that were studied (tests/support/loops/studies.py).
 """

@@ -1,4 +1,4 @@
-"""The page of a stability study: its numbers, its figures, and what it says where some are missing.
+"""Page of a stability study: numbers, figures, and statements on missing results.
 
 Truth: python-control's margins and responses of the tiny systems that were studied (tests/support/loops/studies.py).
 """

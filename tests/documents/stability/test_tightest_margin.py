@@ -1,6 +1,6 @@
-"""The tightest margin of a study: in the header with its limit and its dispersion, and marked in the tables.
+"""Tightest margin of a study: in the header with limit and dispersion, and marked in the tables.
 
-Truth: reserves relative to limits, from the report's requirements; Clopper and Pearson's interval by scipy.
+Truth: reserves relative to limits, from the requirements of the report; Clopper and Pearson's interval by scipy.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""The page of a rare failure: numbers, figures, conditions.
+"""Page of a rare failure: numbers, figures, conditions.
 
-Truth: the result's own arrays counted here, the closed form of the linear system's failure, scipy's binomial test.
+Truth: the arrays of the result, counted here; the closed form of the linear system's failure; scipy's binomial test.
 """
 
 import itertools

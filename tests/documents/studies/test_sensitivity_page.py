@@ -1,6 +1,6 @@
-"""The page of a sensitivity study: indices, their bars, what has none.
+"""Page of a sensitivity study: indices, bars, and numbers without indices.
 
-Truth: the shares of the variance of a sum of independent draws; lengths measured in the page's own SVG.
+Truth: the shares of the variance of a sum of independent draws; lengths measured in the SVG of the page.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The pages of the studies in a real browser: legible on a telephone, painted on a screen."""
+"""Pages of the studies in a browser: legible on a phone, rendered on a wide screen. Truth: its layout."""
 
 import numpy as np
 import pytest

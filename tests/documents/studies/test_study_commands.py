@@ -1,6 +1,6 @@
-"""`--report` of the three studies: refused before a flight where it cannot be written, else a page.
+"""`--report` of the three studies: a page, or refusal before any simulation if it cannot be written.
 
-Truth: the page's numbers and those of --json.
+Truth: the numbers of --json.
 """
 
 import json

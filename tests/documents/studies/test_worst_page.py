@@ -1,6 +1,6 @@
-"""The page of a worst case: the search, the box, the flight, noise realisations.
+"""Page of a worst case: search, box, worst simulation, noise realisations.
 
-Truth: the corner of the box that is the worst of a linear system; numpy's running maximum and median.
+Truth: the worst corner of the box of a linear system; numpy's running maximum and median.
 """
 
 from dataclasses import replace

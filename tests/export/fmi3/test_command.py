@@ -1,4 +1,4 @@
-"""`perilune export NAME --fmi 3`: what it writes and for which platforms, and what it refuses, in one line each."""
+"""`perilune export NAME --fmi 3`: output, platforms, and refusals in one line each."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Description of an FMU of FMI 3.0, for every block.
+"""modelDescription.xml of FMI 3.0 for every block.
 
-Truth: FMPy's validation with the standard's schemas, and the FMI 2.0 description that FMPy reads of the same block.
+Truth: FMPy's validation with the standard's schemas, and the FMI 2.0 description of the same block, as read by FMPy.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""FMI 3.0's functions of a native FMU, called by FMPy: life cycle, complete state, and what wrong calls are answered.
+"""FMI 3.0 functions of a native FMU, called by FMPy: life cycle, complete state, and responses to invalid calls.
 
-Truth: the messages and values of FMI 2.0's functions (`test_native_interface.py`) and of the block in Python. Wrong
-calls of all kinds under sanitizers: `test_sanitizers.py`.
+Truth: the messages and values of FMI 2.0's functions (`test_native_interface.py`) and of the block in Python. Invalid
+calls of all kinds are tested under sanitizers in `test_sanitizers.py`.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""FMUs of FMI 3.0 for several platforms: their files, the same bytes in two builds, aarch64 Linux run under qemu.
+"""FMUs of FMI 3.0 for several platforms: files, reproducible bytes, execution on aarch64 Linux under qemu.
 
-Truth for aarch64: the checksum of the same flight by this machine's library. `make emulator` installs qemu and the C
-library of aarch64. `make long` takes all platforms, `make test` this machine and aarch64 Linux: zig first builds the C
-library of each.
+Truth for aarch64: the checksum of the same simulation by this machine's library. `make emulator` installs qemu and the
+C library of aarch64. `make long` covers all platforms, `make test` only this machine and aarch64 Linux, since zig first
+builds the C library of each platform.
 """
 
 from __future__ import annotations

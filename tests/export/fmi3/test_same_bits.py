@@ -1,7 +1,7 @@
-"""Blocks in FMI 3.0 have the bits of FMI 2.0: each block's check, flown by FMPy with the same inputs in both.
+"""Blocks in FMI 3.0 give the bits of FMI 2.0: each block's check, simulated by FMPy with the same inputs in both.
 
-All variables at all points, and the words of the complete state. `make long` takes every block, else some that have
-all kinds of variables between them.
+All variables at all points and the words of the complete state are compared. `make long` covers every block, `make
+test` some blocks that together have all kinds of variables.
 """
 
 from __future__ import annotations

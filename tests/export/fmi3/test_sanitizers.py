@@ -1,4 +1,4 @@
-"""The C of blocks in FMI 3.0 under the address and undefined-behaviour sanitizers; `make sanitize` takes all."""
+"""The C of blocks in FMI 3.0 under the address and undefined-behaviour sanitizers; `make sanitize`: all blocks."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Whole systems of FMI 3.0 FMUs in a container of the FMU Manipulation Toolbox: the bits of `--algorithm jacobi`.
+"""Complete systems of FMI 3.0 FMUs in a container of the FMU Manipulation Toolbox: the bits of `--algorithm jacobi`.
 
-The container consists of the components and connections of the exported .ssp, arrays as wholes, with the FMUs' starts
-instead of parameter sets, and is itself an FMU of FMI 3.0, which FMPy and Perilune fly.
+The container consists of the components and connections of the exported .ssp, with complete arrays and with start
+values of the FMUs instead of parameter sets. It is itself an FMU of FMI 3.0, which FMPy and Perilune simulate.
 """
 
 import json

@@ -1,8 +1,8 @@
-"""FMUs of FMI 3.0 in the FMU Manipulation Toolbox 2.0: a container of FMI 3.0, and its own checks and compiler.
+"""FMUs of FMI 3.0 in the FMU Manipulation Toolbox 2.0: a container of FMI 3.0, and the toolbox's checks and compiler.
 
-Truth of a flight: the blocks in Python, stepped as the container does by itself (Jacobi: all with the values of the
-last exchange, then all are read). Two blocks are connected there terminal to terminal. Containers describe starts of
-arrays by an element that the standard's schema has not, so FMPy reads them without validation.
+Truth: the blocks in Python, stepped in the order of the container (Jacobi: all with the values of the last exchange,
+then all are read). Two blocks are connected terminal to terminal. Containers describe start values of arrays by an
+element that is not in the standard's schema, so FMPy reads them without validation.
 """
 
 from __future__ import annotations

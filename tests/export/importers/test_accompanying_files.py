@@ -1,6 +1,6 @@
-"""Files and attributes that travel in an FMU with its variables and code: origin, licences, an icon.
+"""Accompanying files and attributes of an FMU: origin, licences, icon.
 
-Truth: LICENSE, pyproject.toml, the headers' own text, the signature of PNG files (ISO/IEC 15948), FMPy's validation.
+Truth: LICENSE, pyproject.toml, the text of the headers, the signature of PNG files (ISO/IEC 15948), FMPy's validation.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Communication steps that hold several sample instants of a block, in every form of it.
+"""Communication steps that contain several sample instants of a block, in every form of the block.
 
-Truth: FMPy stepping the same FMU by the sample period, with the inputs held over the long step. `make long` takes
+Truth: FMPy stepping the same FMU by the sample period, with the inputs held over the long step. `make long` covers
 every sampled block and flavour, `make test` every twentieth.
 """
 

@@ -1,6 +1,6 @@
-"""FMUs take communication steps of any length, as docs/use_elsewhere.md says: all under `make long`, else some.
+"""FMUs accept communication steps of any length (docs/use_elsewhere.md): all FMUs under `make long`, else some.
 
-Truth: FMPy's calls.
+Truth: the results of calls by FMPy.
 """
 
 from __future__ import annotations

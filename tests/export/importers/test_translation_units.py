@@ -1,7 +1,7 @@
-"""The sources of exported FMUs for importers that compile all that they find, and for those that take C for C++17.
+"""Sources of exported FMUs for importers that compile every file, and for importers that compile C as C++17.
 
-dSPACE and others compile each `.c` of sources/ as a translation unit, whatever is listed. Truth: the compilers, FMPy's
-reading of both lists, and the bits of the library in C. `make long` takes every block.
+dSPACE and others compile each `.c` of sources/ as a translation unit, regardless of the list in the FMU. Truth: the
+compilers, both lists as read by FMPy, and the bits of the library in C. `make long` covers every block.
 """
 
 from __future__ import annotations

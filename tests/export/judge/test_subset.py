@@ -1,4 +1,4 @@
-"""The subset of Python for kernels: every block is in it; every rule refuses with file, line and remedy."""
+"""Subset of Python for kernels: every block conforms; every rule rejects with file, line and remedy."""
 
 from __future__ import annotations
 

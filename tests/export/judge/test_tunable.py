@@ -1,7 +1,7 @@
-"""Tunable parameters, and why the others are fixed.
+"""Tunable parameters, and reasons why other parameters are fixed.
 
-Truth: small blocks whose answer can be read; for the blocks of the catalogue the blocks themselves: no variable that
-steps leave alone depends on a tunable parameter where the block is initialised with another value of it.
+Truth: small blocks with an obvious answer; for blocks of the catalogue, their behaviour: after initialisation with a
+different value of a tunable parameter, every variable that steps do not change is equal.
 """
 
 from __future__ import annotations

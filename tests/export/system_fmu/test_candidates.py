@@ -1,6 +1,6 @@
-"""Candidates of a slot that differ from each other, and the FMUs that one of a system cannot have inside.
+"""Different candidates for a component of a system FMU, and FMUs that a system FMU cannot contain.
 
-Truth: the systems with one of them, and closed forms.
+Truth: the systems with one candidate, and closed forms.
 """
 
 import subprocess

@@ -1,4 +1,4 @@
-"""Systems of few blocks at the edges of what one FMU can be.
+"""Systems of few blocks at the limits of export as one FMU.
 
 Truth: closed forms, and the same systems simulated from their FMUs.
 """

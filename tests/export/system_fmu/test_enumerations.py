@@ -1,4 +1,4 @@
-"""Enumerations of a system as one FMU: statuses, phases and methods of its blocks, each with its type.
+"""Enumerations of a system as one FMU: statuses, phases and methods of its blocks, with types.
 
 Truth: the declarations of the blocks, FMPy, the semantic checks of the FMU Manipulation Toolbox, closed forms.
 """

@@ -1,6 +1,6 @@
-"""`perilune export --as-fmu` as users call it: what is written, what is refused and how.
+"""`perilune export --as-fmu` as called by users: output, and refusals.
 
-Truth: the lines, exit status 2 of what is wrong; FMI 2.0's schema; a second build, byte by byte.
+Truth: the expected lines and exit status 2 for errors; FMI 2.0's schema; a second build, byte by byte.
 """
 
 import subprocess

@@ -1,6 +1,6 @@
-"""A system's FMU flown by tools that know nothing of Perilune: from an empty folder, in other masters, recompiled.
+"""FMU of a system simulated by other tools: from an empty folder, in other importers, recompiled.
 
-Truth: the system flown by Perilune from the FMUs of its components.
+Truth: the system simulated by Perilune from the FMUs of its components.
 """
 
 import json

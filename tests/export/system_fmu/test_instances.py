@@ -1,6 +1,6 @@
-"""Instances of a system's FMU: states, steps, its end, several at once, in threads and in other processes.
+"""Instances of a system's FMU: states, steps, termination, several at once, in threads and in other processes.
 
-Truth: one flight in whole, by the same FMU; FMI 2.0 for what calls return.
+Truth: one complete simulation by the same FMU; FMI 2.0 for return values of calls.
 """
 
 import pickle

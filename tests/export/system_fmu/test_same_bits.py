@@ -1,6 +1,6 @@
-"""A system as one FMU, flown by FMPy: the flight of the system from its FMUs, to the last bit.
+"""System as one FMU, simulated by FMPy: equal to the system of component FMUs, to the last bit.
 
-Truth: the system flown by Perilune from the FMUs of its components, instruction by instruction.
+Truth: the system simulated by Perilune from the FMUs of its components, instruction by instruction.
 """
 
 import shutil

@@ -1,4 +1,4 @@
-"""The C of systems' FMUs under the address and undefined-behaviour sanitizers, in two threads: `make sanitize`.
+"""The C of system FMUs under the address and undefined-behaviour sanitizers, in two threads: `make sanitize`.
 
 Truth: the sanitizers, which end the process; the same FMU without them.
 """

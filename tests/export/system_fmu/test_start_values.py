@@ -1,6 +1,6 @@
-"""A system as one FMU refuses what its components refuse; candidates that are not chosen do not count.
+"""A system as one FMU rejects the values that its components reject; unselected candidates are ignored.
 
-Truth: the declarations of the blocks, and the numbers that are set.
+Truth: the declarations of the blocks, and the set numbers.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Every construct of the subset, and every fault, means the same in C as in Python."""
+"""Every construct of the subset, and every fault, has the same meaning in C and in Python. Truth: CPython."""
 
 from __future__ import annotations
 

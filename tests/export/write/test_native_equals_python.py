@@ -1,6 +1,6 @@
 """Every block of the catalogue: plain Python and compiled C agree to the last bit, faults included.
 
-`make test` takes every third block for random inputs and every ninth for wild ones.
+`make test` covers every third block with random inputs and every ninth with extreme inputs.
 """
 
 from __future__ import annotations

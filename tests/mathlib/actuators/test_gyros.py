@@ -1,8 +1,8 @@
-"""Gyro cluster: `perilune.fmus_src.mathlib.actuators.gyros` against linear algebra and root finding.
+"""`perilune.fmus_src.mathlib.actuators.gyros`: a cluster of control moment gyros.
 
-Truth: the jacobian by complex steps, numpy's determinant, pseudo-inverse and solutions of linear systems,
-scipy's brentq on the distribution law in its implicit form, and the published isotropic angles.
-Tolerance 1e-12 for momenta (of one rotor's) and rates.
+Truth: the Jacobian by complex steps, numpy's determinant, pseudo-inverse and solutions of linear systems, scipy's
+brentq on the distribution law in its implicit form, and the published isotropic angles. Tolerance 1e-12 for rates and
+for momenta, relative to one rotor.
 """
 
 import math

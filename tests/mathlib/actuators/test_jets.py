@@ -1,4 +1,4 @@
-"""Eight jets: `perilune.fmus_src.mathlib.actuators.jets` against linear algebra and linear programming.
+"""`perilune.fmus_src.mathlib.actuators.jets`: allocation of a wrench to eight jets.
 
 Truth: the 6 x 8 matrix built from the published nozzle axes and arms with cross products, numpy's rank, null
 space and pseudo-inverse, scipy's HiGHS for the attainable set and the least propellant, and a

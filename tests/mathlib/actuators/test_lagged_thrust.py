@@ -1,6 +1,6 @@
 """Thrust with a first-order lag: `perilune.fmus_src.mathlib.actuators.lagged_thrust`.
 
-Truth: the exponential and scipy's quadrature of it; an arbitrary cut of the time into two, which changes nothing.
+Truth: the exponential and its quadrature by scipy; invariance under an arbitrary division of the time.
 """
 
 import math

@@ -1,8 +1,7 @@
-"""Quaternions: `perilune.fmus_src.mathlib.attitude.quaternion` against rotations of scipy and exact cases.
+"""`perilune.fmus_src.mathlib.attitude.quaternion`: products, rotations and kinematics of quaternions.
 
-Truth: `scipy.spatial.transform.Rotation` (matrices, rotation vectors, products), the matrix exponential for
-the kinematic sign, and quarter turns whose results are whole numbers. Tolerance 1e-14 for components
-of unit size, 1e-13 for chains.
+Truth: `scipy.spatial.transform.Rotation` (matrices, rotation vectors, products), the matrix exponential for the sign of
+the kinematics, and quarter turns with integer results. Tolerance 1e-14 for components of unit size, 1e-13 for chains.
 """
 
 import math

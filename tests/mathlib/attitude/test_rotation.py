@@ -1,8 +1,7 @@
-"""Turning unit vectors: `perilune.fmus_src.mathlib.attitude.rotation` against quaternion rotations of scipy.
+"""`perilune.fmus_src.mathlib.attitude.rotation`: rotation of unit vectors.
 
-Truth: `scipy.spatial.transform.Rotation` about the common normal, and exact cases along the axes.
-Tolerance 1e-12 (rad and unit vectors), 1e-8 within 1e-6 rad of opposite vectors, where the axis itself
-is that uncertain.
+Truth: `scipy.spatial.transform.Rotation` about the common normal, and exact cases along the axes. Tolerance 1e-12 (rad
+and unit vectors), 1e-8 within 1e-6 rad of opposite vectors, where the axis has this uncertainty.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""A thrust axis that is turned: `perilune.fmus_src.mathlib.attitude.thrust_axis`.
+"""`perilune.fmus_src.mathlib.attitude.thrust_axis`: motion of a rotating thrust axis.
 
 Truth: scipy's rotations for a constant rate (the axis stays on a circle), DOP853 at 1e-12 under an acceleration, the
-order of convergence against it, and the axis' unit length and perpendicular rate, which every step keeps.
+order of convergence relative to it, and conservation of the axis' unit length and of its perpendicular rate.
 """
 
 import numpy as np

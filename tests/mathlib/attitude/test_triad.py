@@ -1,4 +1,4 @@
-"""Attitude from axes and from two directions: `perilune.fmus_src.mathlib.attitude.triad`.
+"""`perilune.fmus_src.mathlib.attitude.triad`: attitude from axes and from two directions.
 
 Truth: scipy's rotations, and the geometry of the two directions.
 """

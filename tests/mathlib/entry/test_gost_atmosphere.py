@@ -1,6 +1,6 @@
-"""GOST 4401-81 against rows of its printed tables: geometric height, density; pressure over R T where it is isothermal.
+"""GOST 4401-81 atmosphere. Truth: printed rows of geometric height and density; pressure over R T in isothermal layers.
 
-Rows at which the function has no knots, but for 100 and 120 km.
+The function has no knots at these rows, except at 100 and 120 km.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""Coefficients of the capsule's shield against the published table, digit by digit, and Newton's law by quadrature."""
+"""Coefficients of the capsule's shield. Truth: the published table, digit by digit, and Newton's law by quadrature."""
 
 import csv
 import math

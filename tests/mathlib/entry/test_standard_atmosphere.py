@@ -1,4 +1,4 @@
-"""The US standard atmosphere against its published table, five digits of density: 0.01 %."""
+"""US standard atmosphere 1976. Truth: the published table, with five digits of density (0.01 %)."""
 
 import math
 

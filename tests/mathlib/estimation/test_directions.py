@@ -1,4 +1,4 @@
-"""Directions in a filter of attitude errors: `perilune.fmus_src.mathlib.estimation.directions`.
+"""`perilune.fmus_src.mathlib.estimation.directions`: measured directions in a filter of attitude errors.
 
 Truth: filterpy with three components at once, numpy's inverse, differences of scipy's rotations for the sensitivity.
 """

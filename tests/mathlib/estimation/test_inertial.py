@@ -1,8 +1,8 @@
-"""Inertial navigation: `perilune.fmus_src.mathlib.estimation.inertial` against an ODE solver and full matrices.
+"""`perilune.fmus_src.mathlib.estimation.inertial`: inertial navigation and its error model.
 
-Truth: `scipy.integrate.solve_ivp` with a specific force linear in time under central gravity (1 mm and 1e-5 m/s
-after 280 s, and the stated 7 mm when it is taken as constant in each step); F P F' + Q by numpy with the derivatives of
-the error model taken by finite differences (1e-12 of the largest element).
+Truth: `scipy.integrate.solve_ivp` with a specific force linear in time under central gravity (1 mm and 1e-5 m/s after
+280 s, and the stated 7 mm with a force that is constant in each step); F P F' + Q by numpy with derivatives of the
+error model by finite differences (1e-12 of the largest element).
 """
 
 import numpy as np

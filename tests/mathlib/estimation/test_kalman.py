@@ -1,8 +1,8 @@
-"""Kalman filter: `mathlib.estimation.kalman` against filterpy, random systems of one to fifteen states.
+"""`perilune.fmus_src.mathlib.estimation.kalman`: Kalman filter for random systems of one to fifteen states.
 
-Truth: `filterpy.kalman.KalmanFilter` with its matrix inverse, and the information form of the update by
-numpy; tolerance 1e-10 of the largest element. The covariance stays symmetric to 1e-12 of its largest
-element and positive over thousands of steps, with nearly perfect measurements too.
+Truth: `filterpy.kalman.KalmanFilter` with its matrix inverse, and the information form of the update by numpy;
+tolerance 1e-10 of the largest element. The covariance stays symmetric to 1e-12 of its largest element and positive
+definite over thousands of steps, also with nearly perfect measurements.
 """
 
 import numpy as np

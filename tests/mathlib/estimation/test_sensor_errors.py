@@ -1,4 +1,4 @@
-"""Errors that sensors have in common: `perilune.fmus_src.mathlib.estimation.sensor_errors`.
+"""`perilune.fmus_src.mathlib.estimation.sensor_errors`: common error models of sensors.
 
 Truth: the moments of a stationary process, Python's fractions for rounding, numpy for limits and delays.
 """

@@ -1,8 +1,7 @@
-"""Covariance of value, rate and disturbance: `perilune.fmus_src.mathlib.estimation.tracking` against filterpy.
+"""`perilune.fmus_src.mathlib.estimation.tracking`: covariance of value, rate and disturbance.
 
-Truth: `filterpy.kalman.KalmanFilter` with `Q_continuous_white_noise`, to 1e-10 relative; the steady state by
-scipy's discrete Riccati equation; a straight line fitted to samples by least squares where there is no noise
-but that of the samples.
+Truth: `filterpy.kalman.KalmanFilter` with `Q_continuous_white_noise`, to 1e-10 relative; the steady state by scipy's
+discrete Riccati equation; a straight line fitted to samples by least squares, for systems without process noise.
 """
 
 import numpy as np

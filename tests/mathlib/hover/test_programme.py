@@ -1,9 +1,9 @@
-"""The simplified hover-to-hover programme: `perilune.fmus_src.mathlib.hover.programme` and its modules.
+"""`perilune.fmus_src.mathlib.hover.programme` and its modules: the simplified hover-to-hover programme.
 
-Truth: scipy's DOP853 on the paper's full equations (Huang 2017), with pitch as a state that is driven by the switched
-angular acceleration, and the first burn where the paper has it, below a share of the largest deviation; the rocket
-equation's closed form straight down, solved by scipy; the figures that the paper prints, and those that two independent
-programs found.
+Truth: scipy's DOP853 on the paper's full equations (Huang 2017), with pitch as a state driven by the switched angular
+acceleration, and the first burn as in the paper, below a share of the largest deviation; for a vertical descent, the
+closed form of the rocket equation, solved by scipy; numbers printed in the paper, and numbers from two independent
+programs.
 """
 
 import math

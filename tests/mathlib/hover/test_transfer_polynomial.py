@@ -1,7 +1,7 @@
-"""Transfers of degree 7 and their thrust: `perilune.fmus_src.mathlib.hover.transfer_polynomial`.
+"""`perilune.fmus_src.mathlib.hover.transfer_polynomial`: transfers of degree 7 and their thrust.
 
-Truth: scipy's BPoly from the derivatives at both ends, which leave no freedom; differences and quadrature of it; the
-closed form 140 s^3 (1 - s)^3 of a transfer from rest to rest; the rocket equation.
+Truth: scipy's BPoly from the derivatives at both ends, which determine it; its differences and quadrature; the closed
+form 140 s^3 (1 - s)^3 of a transfer from rest to rest; the rocket equation.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Second-order cones: the scaling of Nesterov and Todd, the product and the step to the boundary, by numpy."""
+"""Second-order cones: Nesterov-Todd scaling, product, and step to the boundary. Truth: numpy."""
 
 import numpy as np
 import pytest

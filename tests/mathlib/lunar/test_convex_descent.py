@@ -1,8 +1,8 @@
-"""The interior-point method of descents on board, against Clarabel in another formulation.
+"""Interior-point method for descents on board, compared with Clarabel in another formulation.
 
-The best path and its propellant at three starts with expansions settled; objectives of drawn starts, braking and near
-the ground with glide slope and tilt, and which of them are out of reach; the derivative by the time of flight against
-differences of Clarabel's objective; and a descent that is known in closed form.
+Compared are the best path and its propellant for three starts, with converged expansions; objectives and infeasibility
+for random starts, in braking and near the ground with glide slope and tilt; the derivative with respect to the time of
+flight, with differences of Clarabel's objective; and a descent known in closed form.
 """
 
 import math

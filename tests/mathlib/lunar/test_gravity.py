@@ -1,7 +1,7 @@
-"""The Moon's sphere relative to the landing site: `perilune.fmus_src.mathlib.lunar.gravity`.
+"""`perilune.fmus_src.mathlib.lunar.gravity`: sphere and gravity of the Moon relative to the landing site.
 
 Truth: exact cases above, below and to the side of the site, and gravity as the gradient of mu/distance by central
-differences of numpy (tolerance 1e-8 relative, the differences' own error); its size mu/distance^2 to 1e-14.
+differences by numpy (tolerance 1e-8 relative, the error of the differences); its magnitude mu/distance^2 to 1e-14.
 """
 
 import numpy as np

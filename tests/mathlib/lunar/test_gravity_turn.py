@@ -1,7 +1,7 @@
-"""Gravity turn in closed form against the turn flown by DOP853, and against the hodograph's integrals by quad.
+"""Gravity turn in closed form, compared with its integration by DOP853 and with quadrature of the hodograph.
 
 Truth: v proportional to tan(psi/2)^n/sin(psi) (Culler and Fried 1957), whose height, time and distance are integrals;
-the equations of motion; the vertical descent, n = 1 + v^2/(2 g H). The printed numbers were computed apart.
+the equations of motion; the vertical descent, n = 1 + v^2/(2 g H). Printed numbers are from a separate program.
 """
 
 import numpy as np

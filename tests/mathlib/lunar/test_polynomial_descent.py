@@ -1,8 +1,8 @@
-"""Polynomial descent: the kernels of `polynomial_descent` against both ends that a profile must meet.
+"""Polynomial descent: profiles of `polynomial_descent` meet the conditions at both ends.
 
-Truth: the profile as the solution of its boundary conditions by numpy, flown by DOP853 in a gravity that is linear in
-time; the classic laws written out (ZEM and ZEV, a constant acceleration, Klumpp's quartic); roots by numpy. The printed
-numbers were computed apart from this code.
+Truth: the profile as the solution of its boundary conditions by numpy, integrated by DOP853 with gravity linear in
+time; the classic laws written out (ZEM/ZEV, constant acceleration, Klumpp's quartic); roots by numpy. Printed numbers
+are from a separate program.
 """
 
 import numpy as np

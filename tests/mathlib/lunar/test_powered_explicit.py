@@ -1,8 +1,8 @@
-"""Powered explicit guidance: its thrust integrals against quadrature, its solution against the equations it solves.
+"""Powered explicit guidance: thrust integrals, and solution of its equations.
 
 Truth: integrals of F/(m - F t/v_e) and its moments by quad; the conditions on velocity, range and offset written with
-these integrals and solved by scipy; a flight of the solution by DOP853, which misses by the truncation in the turning.
-The printed numbers were computed apart.
+these integrals and solved by scipy; an integration of the solution by DOP853, which misses the target by the truncation
+error of the steering. Printed numbers are from a separate program.
 """
 
 import numpy as np

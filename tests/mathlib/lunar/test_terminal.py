@@ -1,10 +1,10 @@
-"""Thrust linear in time: `perilune.fmus_src.mathlib.lunar.terminal` against the boundary conditions it must meet.
+"""`perilune.fmus_src.mathlib.lunar.terminal`: thrust acceleration linear in time that meets boundary conditions.
 
-Truth: coasting motion by scipy's integrator and the six boundary conditions, solved by numpy as a linear
-system for a0 and a1 and integrated in closed form (numpy polynomials); the times-to-go against
-`numpy.roots` of |A|^2 T^2 = 4 |B|^2 multiplied out from A(T) and B(T) as polynomials, against the integral
-of the squared thrust acceleration by Gauss and Legendre's rule, and against the printed test state. Tolerance
-1e-9 relative unless a test says otherwise; printed figures to half a unit of their last digit.
+Truth: coasting motion by scipy's integrator and the six boundary conditions, solved by numpy as a linear system for a0
+and a1 and integrated in closed form (numpy polynomials); times to go compared with `numpy.roots` of |A|^2 T^2 = 4 |B|^2
+multiplied out from A(T) and B(T) as polynomials, with the integral of the squared thrust acceleration by Gauss-Legendre
+quadrature, and with the printed test state. Tolerance 1e-9 relative unless a test states otherwise; printed numbers to
+half a unit of their last digit.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Attitude on an orbit: rates, accelerations, their derivatives and the linear model.
+"""Attitude on an orbit: rates, accelerations, derivatives and the linear model.
 
 Truth: direction cosines by numpy and scipy (tests/support/flights/orbital_motion.py), differences of the functions
-themselves (within their truncation), and the equations of a body with principal axes written out.
+(within truncation errors), and the equations of a body with principal axes, written out.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""Position on the orbit and duration of braking: `perilune.fmus_src.mathlib.orbits.deorbit` and `landing_site`.
+"""`perilune.fmus_src.mathlib.orbits.deorbit` and `landing_site`: ignition, braking duration, moved sites.
 
-Truth: the motion itself, integrated by scipy (the burn's orbit descends to the pericentre), rotations by scipy, plain
-geometry of the sphere, and properties: a moved site is on the sphere, a re-designation never exceeds its reach.
+Truth: the motion integrated by scipy (the orbit after the burn descends to the pericentre), rotations by scipy,
+spherical geometry, and properties: a moved site is on the sphere, a re-designation never exceeds its reach.
 """
 
 import math

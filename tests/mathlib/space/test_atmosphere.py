@@ -1,4 +1,4 @@
-"""Heights and densities against the same formulas in another program, and against the rows of their tables."""
+"""Heights and densities. Truth: the same formulas in another program, and the rows of the published tables."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Sun and Moon against the same series in another program, and against JPL's DE421 within the stated accuracy."""
+"""Positions of Sun and Moon. Truth: the same series in another program, and JPL's DE421 within the stated accuracy."""
 
 import numpy as np
 import pytest

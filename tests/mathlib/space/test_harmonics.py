@@ -1,4 +1,4 @@
-"""Gravity and magnetic field against sums in 40 digits, published IGRF code, and what any potential obeys."""
+"""Gravity and magnetic field. Truth: sums in 40 digits, published IGRF code, and properties of any potential."""
 
 from fractions import Fraction
 from functools import cache

@@ -1,4 +1,4 @@
-"""Eclipse against areas by quadrature; plates, sphere and gravity gradient against another program and closed forms."""
+"""Eclipses, plates, sphere and gravity gradient. Truth: areas by quadrature, another program, and closed forms."""
 
 import numpy as np
 import pytest

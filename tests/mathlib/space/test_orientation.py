@@ -1,4 +1,4 @@
-"""Axes of Earth and Moon against ERFA, NAIF's published value, and the same series in another program."""
+"""Axes of Earth and Moon. Truth: ERFA, NAIF's published value, and the same series in another program."""
 
 import numpy as np
 import pytest

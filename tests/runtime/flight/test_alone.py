@@ -1,4 +1,4 @@
-"""An FMU alone, with inputs over time, in `perilune.simulate`.
+"""Single FMU with inputs over time in `perilune.simulate`.
 
 Truth: `fmpy.simulate_fmu` with the same step, bit for bit.
 """

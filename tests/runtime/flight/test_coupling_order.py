@@ -1,8 +1,9 @@
 """Convergence of a coupled simulation to the closed form as the communication step gets shorter.
 
 Truth: x' = -x + y, y' = -y - x from (1, 0), which is exp(-t) (cos t, -sin t). Each half integrates its own equation
-exactly with its input held over the step, so that all of the error is the coupling's: of first order with either
-algorithm, since a held input is one of order 0 (Gomes and others, Co-simulation: a survey, 2018, section 3.3).
+exactly with its input held over the step, so the error is due to the coupling alone: it is of first order with either
+algorithm, since a held input is an extrapolation of order 0 (Gomes and others, Co-simulation: a survey, 2018, section
+3.3).
 """
 
 import itertools

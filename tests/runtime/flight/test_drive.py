@@ -1,6 +1,6 @@
 """Inputs of a system over time: root connectors, inputs of components, faults on them, nested systems, batches.
 
-Truth: closed forms; the same flight with a component that makes the signal; the same system with the value set.
+Truth: closed forms; the same simulation with a component that generates the signal; the same system with the set value.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Faults on connectors, each row computed by hand.
+"""Faults on connectors, with each row computed by hand.
 
-Truth: the definition. In [start, stop) an output or input reads another value (override), its own plus
-a bias, or the one it had when the freeze began. On an output every reader sees it, on an input that
-component only. A triple follows a ramp 1, 1.5, 2, 2.5, 3.
+Truth: the definition. In [start, stop) an output or input has another value (override), its own value plus a bias, or
+its value at the start of the freeze. A fault on an output affects every reader, a fault on an input only that
+component. A triple follows a ramp 1, 1.5, 2, 2.5, 3.
 """
 
 import math

@@ -1,6 +1,6 @@
-"""Values that go by way of FMUs' memory.
+"""Values exchanged directly through the memory of FMUs.
 
-Truth: the same flight by FMI's own calls, to the last bit.
+Truth: the same simulation by FMI calls, to the last bit.
 """
 
 import numpy as np

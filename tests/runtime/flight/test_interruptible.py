@@ -1,6 +1,6 @@
-"""Ctrl-C during a flight: what was flown comes back, and it is what a whole flight has flown until then.
+"""Ctrl-C during a simulation: results until then are returned, equal to the results of a complete simulation.
 
-Truth: the same flight without an interruption, bit for bit.
+Truth: the same simulation without an interruption, bit for bit.
 """
 
 import threading

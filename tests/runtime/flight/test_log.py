@@ -1,6 +1,6 @@
 """Messages of FMUs, on standard error.
 
-Truth: what the FMU of the test says, step by step; FMI 2.0's statuses.
+Truth: the messages of the test's FMU, step by step; FMI 2.0's statuses.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The complete memory of a system, saved, put back, read and changed, in both flavours of our FMUs.
+"""Complete memory of a system: saved, restored, read and changed, in both flavours of Perilune's FMUs.
 
-Truth: flights that nothing was done to; equations of motion; the same system in the other flavour.
+Truth: undisturbed simulations; equations of motion; the same system in the other flavour.
 """
 
 import re

@@ -1,20 +1,21 @@
-"""Other importers read our .ssp, wire the same system and arrive at the same numbers.
+"""Other importers read exported .ssp files and give the same numbers.
 
-Requirements of each, by experiment:
+Properties of each importer, found by experiment:
 
-libcosim 0.11.2 (libcosimpy 0.0.6) reads FMUs, connectors and connections of the .ssp. It refuses connections that end
-at a connector of the system itself, so these are taken out of a copy, and it leaves parameter bindings of a system
-aside, so the values are set through its interface. Its fixed-step algorithm is Jacobi: all FMUs get the values of the
-last exchange, all step, all are read. Before the first step it exchanges as often as there are FMUs, then leaves
-initialisation mode and exchanges once more; this settles the same values at the start as one pass of ours in the order
-of the connections. It counts time in whole nanoseconds, so the times it hands to the FMUs differ from ours in the last
-bit: 1e-9 holds, equality does not.
+libcosim 0.11.2 (libcosimpy 0.0.6) reads FMUs, connectors and connections of the .ssp. It rejects connections that end
+at a connector of the system itself, so these are removed from a copy, and it ignores parameter bindings of a system, so
+values are set through its interface. Its fixed-step algorithm is Jacobi: all FMUs get the values of the last exchange,
+then all step, then all are read. Before the first step it exchanges values as often as there are FMUs, then leaves
+initialisation mode and exchanges once more; this gives the same initial values as one pass of Perilune in the order of
+the connections. It counts time in integer nanoseconds, so the times passed to FMUs differ from Perilune's in the last
+bit: values agree to 1e-9, but are not equal.
 
-fmucontainer (FMU Manipulation Toolbox 2.0) reads the .ssp as it is, without parameter bindings, which are handed to it
-as start values. It initialises in the order of the connections, as we do. By itself it is Jacobi; set to sequential it
-steps in the order of the SSD, which for this system is our sequential order. Both are equal to ours to the last bit.
+fmucontainer (FMU Manipulation Toolbox 2.0) reads the .ssp unchanged, but without parameter bindings, which are passed
+as start values. It initialises in the order of the connections, like Perilune. Its default algorithm is Jacobi; its
+sequential algorithm steps in the order of the SSD, which for this system is Perilune's sequential order. Both give
+results equal to Perilune's to the last bit.
 
-Every contestant runs in a separate process.
+Every importer runs in a separate process.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Variables that are recorded though nothing exchanges them: local ones, parameters.
+"""Recorded variables that are not exchanged: local variables and parameters.
 
-Truth: FMPy, which records them after each step, too; closed forms; the same flight without them.
+Truth: FMPy, which also records them after each step; closed forms; the same simulation without recording.
 """
 
 import csv

@@ -1,4 +1,4 @@
-"""Files of a run: every bit is read back, with types, units and provenance.
+"""Files of a run: values are read back to the last bit, with types, units and provenance.
 
 Truth: the arrays in memory; hashes computed here from the files; Python's csv module and pyarrow's reader.
 """

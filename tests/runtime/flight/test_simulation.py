@@ -1,8 +1,8 @@
-"""Whole flights through FMUs against the independently written lander, and the specification's printed test state.
+"""Complete simulations of FMUs, compared with an independently written lander and the published test state.
 
 Truth: support/flights/independent_lander.py, which shares no code with the components; the numbers printed in the
-published method's worked state; an initial state that ends a run before its first step; new instances, which a reset
-one must repeat to the last bit; fmpy's own calls for the FMU state.
+published method's worked state; an initial state that ends a run before its first step; new instances, which reset
+instances must reproduce to the last bit; FMPy's calls for the FMU state.
 """
 
 import shutil

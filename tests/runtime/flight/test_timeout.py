@@ -1,6 +1,6 @@
-"""A limit on the wall clock: rows until then are kept, a batch continues, a step that hangs does not keep the process.
+"""Time limit: rows until then are retained, a batch continues, and a step that hangs does not block the process.
 
-Truth: the same flight without a limit, bit for bit; the FMU's own sleep.
+Truth: the same simulation without a limit, bit for bit; the duration of the FMU's sleep.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Tunable parameters that change in flight: columns of inputs over time, faults.
+"""Tunable parameters that change during a simulation: columns of inputs over time, faults.
 
 Truth: FMPy, which drives tunable parameters as it drives inputs; rows computed by hand from the definition of faults
-and of the ramp, y(k + 1) = y(k) + slope h, where the step from t takes the slope of t.
+and of the ramp, y(k + 1) = y(k) + slope h, where the step from t uses the slope at t.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Event mode, early returns, endings and failures, with an FMU that refuses calls that FMI 3.0 does not allow."""
+"""Event mode, early returns, terminations and failures, with an FMU that rejects calls that FMI 3.0 does not allow."""
 
 import fmpy
 import numpy as np

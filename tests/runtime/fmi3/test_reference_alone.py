@@ -1,4 +1,4 @@
-"""Reference-FMUs of FMI 2 and 3 by themselves: FMPy's bits at the same steps."""
+"""Single Reference-FMUs of FMI 2.0 and 3.0. Truth: FMPy's bits at the same steps."""
 
 import fmpy
 import numpy as np

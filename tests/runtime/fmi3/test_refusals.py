@@ -1,4 +1,4 @@
-"""FMUs of FMI 3.0 that do not fly here, and what cannot be asked of those that do: one line each."""
+"""Unsupported FMUs of FMI 3.0, and unsupported options of supported FMUs: one line each."""
 
 import re
 

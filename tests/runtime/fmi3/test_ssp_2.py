@@ -1,6 +1,6 @@
-"""SSP 2.0 with FMUs of FMI 3.0: array connectors are array variables, structural parameters size both.
+"""SSP 2.0 with FMUs of FMI 3.0: array connectors for array variables, both sized by structural parameters.
 
-Truth: the strict FMU integrates y' = gain u by Euler's method, element by element; numpy does the same.
+Truth: the strict FMU integrates y' = gain u by Euler's method, element by element; numpy repeats the integration.
 """
 
 import numpy as np

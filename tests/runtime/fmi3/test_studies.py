@@ -1,4 +1,4 @@
-"""Campaigns, studies and margins with FMUs of FMI 3.0, in closed form: the strict FMU has y' = gain u, u constant."""
+"""Campaigns, studies and margins with FMUs of FMI 3.0. Truth: closed form of the strict FMU, y' = gain u."""
 
 import math
 

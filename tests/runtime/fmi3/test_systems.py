@@ -1,4 +1,4 @@
-"""Systems of FMUs of FMI 2.0 and FMI 3.0, which exchange element by element."""
+"""Systems of FMUs of FMI 2.0 and FMI 3.0, which exchange values element by element."""
 
 import shutil
 

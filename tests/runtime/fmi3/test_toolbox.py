@@ -1,4 +1,4 @@
-"""A container that the FMU Manipulation Toolbox makes as an FMU of FMI 3.0, with all types and arrays: FMPy's bits."""
+"""Container by the FMU Manipulation Toolbox as an FMU of FMI 3.0, with all types and arrays. Truth: FMPy's bits."""
 
 import shutil
 import subprocess

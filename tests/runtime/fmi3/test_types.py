@@ -1,4 +1,4 @@
-"""Every type of FMI 3.0 from FMU to FMU: the receiver, written in C, counts what is not exactly what was sent."""
+"""Every type of FMI 3.0 from FMU to FMU. Truth: the receiver, written in C, counts values that differ."""
 
 import numpy as np
 import pyarrow.parquet

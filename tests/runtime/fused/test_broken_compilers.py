@@ -1,6 +1,6 @@
-"""Compilers that do not work, and libraries that are not as they were compiled.
+"""Broken compilers, and libraries that changed after compilation.
 
-Truth: the refusal in one line, and the same system flown by its FMUs.
+Truth: the refusal in one line, and the same system simulated by its FMUs.
 """
 
 import errno

@@ -1,6 +1,6 @@
-"""C of FMUs within a unit: names, texts, headers.
+"""C of several FMUs within one translation unit: names, texts, headers.
 
-Truth: what the C compiler says of two components that have the same names with other meanings; texts by hand.
+Truth: the C compiler, for two components that use the same names with different meanings; texts by hand.
 """
 
 import ctypes

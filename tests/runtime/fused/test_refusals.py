@@ -1,6 +1,6 @@
 """Refusals of systems that cannot be fused, in one line.
 
-Truth: the lines, and the exit status 2.
+Truth: the expected lines, and the exit status 2.
 """
 
 import subprocess

@@ -1,6 +1,6 @@
-"""Steps compiled as one function: the flight of the native FMUs, to the last bit and to the last word.
+"""Fused steps, compiled as one function: results and messages equal those of native FMUs, to the last bit.
 
-Truth: the same system flown instruction by instruction.
+Truth: the same system simulated instruction by instruction.
 """
 
 import re

@@ -1,6 +1,6 @@
 """The elementary functions on arrays.
 
-Truth: the same functions in Python, value by value, to the last bit; in them, mpmath (tests/kernel).
+Truth: the same functions in Python, value by value, to the last bit; Python's are compared with mpmath in tests/kernel.
 """
 
 from __future__ import annotations

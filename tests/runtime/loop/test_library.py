@@ -1,4 +1,4 @@
-"""The library of the loop: what it is built of, which one is loaded, what is said where there is none."""
+"""Library of the loop: its sources, the choice of the loaded library, and the message without a library."""
 
 from __future__ import annotations
 

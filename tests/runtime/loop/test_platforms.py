@@ -1,7 +1,7 @@
-"""The loop without Python, on other platforms: one FMU of FMI 3.0 on aarch64 Linux under qemu, on Windows under Wine.
+"""Loop without Python on other platforms: one FMU of FMI 3.0 on aarch64 Linux under qemu, and on Windows under Wine.
 
 Truth: the record of the same run by this machine's library. `make emulator` installs qemu and the C library of aarch64,
-`make windows` Wine, which only `make processors` takes.
+`make windows` Wine, which only `make processors` uses.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The loop under the address and undefined-behaviour sanitizers: `make sanitize`.
+"""Loop under the address and undefined-behaviour sanitizers: `make sanitize`.
 
-Truth: the sanitizers, which end the process, in other rooms' tests of simulations and reductions.
+Truth: the sanitizers, which end the process, during the tests of simulations and reductions in other folders.
 """
 
 import os

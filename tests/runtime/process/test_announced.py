@@ -1,4 +1,4 @@
-"""Flights that are announced to a child: each has its own values, whatever becomes of the one before.
+"""Simulations announced to a child process: each uses its own values, whatever happened to the previous one.
 
 Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode.
 """

@@ -1,6 +1,6 @@
-"""End of a connection whose child sends anything: in bounded time, never an endless wait.
+"""Closing a connection to a child that sends arbitrary data: in bounded time.
 
-Truth: the bytes that the test writes itself, in place of a child.
+Truth: the bytes written by the test in place of a child.
 """
 
 from __future__ import annotations

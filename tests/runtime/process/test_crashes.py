@@ -1,6 +1,6 @@
-"""FMUs that end their process, or do not return: `run` names FMU and time, batches continue, nothing remains.
+"""FMUs that end their process or do not return: `run` names FMU and time, batches continue, no process remains.
 
-Truth: the FMU's source, which does to its process what the test asks for; the same campaign with an FMU that does not.
+Truth: the FMU's source, which misbehaves as requested by the test; the same campaign with an FMU that does not.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Trials of FMUs that leave something in their thread, process or folder are those of a process each.
+"""FMUs that leave data in their thread, process or folder: each trial equals a trial in a new process.
 
-Truth: the closed form of `coupled.c` and its Python kin, p (1 + what the two steps of a first instance meet), for C's
-rand() and Python's generator with the first numbers of theirs; the default environment of IEEE 754.
+Truth: the closed form of `coupled.c` and its Python kin, p (1 + the state that the two steps of a first instance find),
+for C's rand() and Python's generator with their first numbers; the default environment of IEEE 754.
 """
 
 import ctypes

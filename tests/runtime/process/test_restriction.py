@@ -1,6 +1,6 @@
-"""Restrictions on foreign FMUs in their process: no writing elsewhere, no network, no access to other processes.
+"""Restrictions on foreign FMUs in their process: no writing elsewhere, no network access, no access to other processes.
 
-Truth: the errors that the operating system gives an FMU that tries; what lies in the folders afterwards.
+Truth: the errors that the operating system returns to an FMU that tries; the files in the folders afterwards.
 """
 
 from __future__ import annotations

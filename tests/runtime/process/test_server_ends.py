@@ -1,6 +1,6 @@
-"""A flight server that is killed, as by an operating system that is out of memory: no FMU is to blame for it.
+"""Simulation server that is killed, as by an operating system without free memory: no FMU is blamed.
 
-Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode; the verdict on an FMU that resets.
+Truth: the integral of the FMU's source, y(1 s) = gain u + count + mode; the check of an FMU that resets.
 """
 
 from __future__ import annotations

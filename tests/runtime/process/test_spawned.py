@@ -1,6 +1,6 @@
-"""Children where the operating system cannot fork, tried here with spawned processes.
+"""Child processes on operating systems without fork, tested here with spawned processes.
 
-Truth: the same simulations in this process, and the FMU's source. On Windows itself nothing of it is tested.
+Truth: the same simulations in this process, and the FMU's source. None of these tests runs on Windows.
 """
 
 from __future__ import annotations

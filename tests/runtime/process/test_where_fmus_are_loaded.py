@@ -1,4 +1,4 @@
-"""Foreign FMUs are loaded into children alone: neither the command nor its flight server ever maps their library.
+"""Foreign FMUs are loaded only into child processes: neither the command nor its simulation server maps their library.
 
 Truth: /proc/PID/maps of every process of the command, read while the FMU waits in a step for the reader.
 """

@@ -1,6 +1,6 @@
-"""The reference loop itself, where the loop in C is not of its mind.
+"""Reference loop, in cases in which the loop in C could differ.
 
-Truth: pencil and paper on the definitions of faults, of event mode and of the last row.
+Truth: results by hand from the definitions of faults, of event mode and of the last row.
 """
 
 import shutil

@@ -1,4 +1,4 @@
-"""Features of a system, each by the interpreted loop: the rows of the reference loop to the bit, and its status."""
+"""Features of systems in the interpreted loop. Truth: rows and status of the reference loop, to the bit."""
 
 import pytest
 

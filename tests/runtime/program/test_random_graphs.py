@@ -1,4 +1,4 @@
-"""Random systems by the interpreted loop, which `make fuzz` flies, too: the rows of the reference loop to the bit."""
+"""Random systems in the interpreted loop, also for `make fuzz`. Truth: the rows of the reference loop, to the bit."""
 
 from hypothesis import HealthCheck, settings
 

@@ -1,6 +1,6 @@
-"""The shipped systems by every executor: the rows of the reference loop to the bit, with both algorithms and faults.
+"""Shipped systems in every executor: rows of the reference loop, to the bit, with both algorithms and faults.
 
-Truth: the reference loop, which calls FMPy for one variable at a time and knows no instruction.
+Truth: the reference loop, which calls FMPy for one variable at a time and uses no instructions.
 """
 
 import fmpy

@@ -1,7 +1,7 @@
-"""SSP 2.0 as OMSimulator writes it, a system of ours in its way: it runs; where it breaks the schema, one line.
+"""SSP 2.0 in the form written by OMSimulator: it runs, with one line for each violation of the schema.
 
-It writes Real and Integer, an empty element for the system itself, parameter sets inside components, metadata of
-components, values and times with Python's `str`. Truth: the ramp and the gain by hand; the schemas of SSP 2.0.
+OMSimulator writes Real and Integer, an empty element for the system itself, parameter sets inside components, metadata
+of components, and values and times with Python's `str`. Truth: the ramp and the gain by hand; the schemas of SSP 2.0.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Names of signals. Truth: the definition, the longest component followed by a dot that a name begins with."""
+"""Names of signals. Truth: the component is the longest name, followed by a dot, with which a signal begins."""
 
 import itertools
 

@@ -1,6 +1,6 @@
-"""OspSystemStructure.xml of the Open Simulation Platform flies here as in libcosim, which reads the same file.
+"""OspSystemStructure.xml of the Open Simulation Platform: results equal those of libcosim for the same file.
 
-Truth: libcosim, step by step; pencil and paper for what it makes of a start.
+Truth: libcosim, step by step; results by hand for initial values.
 """
 
 import re

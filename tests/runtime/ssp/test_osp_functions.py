@@ -1,6 +1,6 @@
-"""Functions of an OspSystemStructure.xml: gains and sums of signals.
+"""Functions of an OspSystemStructure.xml: gains and sums.
 
-Truth: libcosim, which reads the same file; the sums themselves.
+Truth: libcosim, which reads the same file; the sums, computed here.
 """
 
 import numpy as np

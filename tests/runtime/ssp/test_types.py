@@ -1,6 +1,6 @@
-"""Types of SSP 2.0: what they hold, which are the same.
+"""Types of SSP 2.0: ranges of values, and equal types.
 
-Truth: numpy's integer types. SSP 1.0 has Real and Integer only, whatever an FMU has.
+Truth: numpy's integer types. SSP 1.0 has only Real and Integer, whatever the types of an FMU.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Documents by the schema of their version: SSP 2.0 with all that it has, SSP 1.0 without it; versions may be mixed.
+"""Validation by the schema of a document's version: SSP 2.0 with its additions, SSP 1.0 without; mixed versions.
 
 Truth: the same system as SSP 1.0, sample by sample; the rules and the schemas of SSP 2.0.
 """

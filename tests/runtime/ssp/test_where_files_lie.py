@@ -1,6 +1,6 @@
-"""Locations of a system's files as other tools write them: archives, folders, folders above them, capitals.
+"""Locations of a system's files as written by other tools: archives, folders, parent folders, capital letters.
 
-Truth: the same system in our way of writing, sample by sample.
+Truth: the same system as written by Perilune, sample by sample.
 """
 
 import zipfile

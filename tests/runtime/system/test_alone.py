@@ -1,4 +1,4 @@
-"""An FMU alone as a prepared system: its name, what it proposes, what is refused.
+"""Single FMU as a prepared system: its name, its default experiment, refusals.
 
 Truth: the modelDescription.xml written for each case; FMI 2.0.
 """

@@ -1,8 +1,7 @@
-"""Semantics of SSP 1.0 documents, on tiny FMUs whose answers are computed by hand.
+"""Semantics of SSP 1.0 documents, with tiny FMUs whose results are computed by hand.
 
-Truth: the SSP 1.0 standard: unit conversion comes before a LinearTransformation, a prefix is put before names before
-they are mapped, the bindings of an outer system win over those inside it, later ones over earlier ones; and pencil and
-paper for the numbers.
+Truth: the SSP 1.0 standard: unit conversion precedes a LinearTransformation, a prefix is added to names before mapping,
+the bindings of an outer system override bindings inside it, and later bindings override earlier ones; numbers by hand.
 """
 
 import math

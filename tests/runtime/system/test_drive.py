@@ -1,4 +1,4 @@
-"""Inputs over time at communication points.
+"""Inputs over time, evaluated at communication points.
 
 Truth: FMPy's `Input.interpolate`, bit for bit, over series with events, close times and points outside.
 """

@@ -1,6 +1,6 @@
-"""Faults: how a fault is written, and which faults a system can have.
+"""Faults: text form, and permitted faults of a system.
 
-Truth: the form in docs/command_line.md, read by hand; that what is printed is what is parsed.
+Truth: the form in docs/command_line.md, read by hand; equality of printed and parsed faults.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""FMUs that do not declare which inputs their outputs depend on: no lead without a word, on tiny FMUs by hand.
+"""FMUs without declared dependencies of outputs on inputs: order of execution, and reported assumptions.
 
-Truth: pencil and paper, as in test_schedule.py. A gain that declares its feedthrough answers at the same time; one that
-does not declare it answers a step later, unless the user or the SSD says that it is direct.
+Truth: results by hand, as in test_schedule.py. A gain that declares its feedthrough responds at the same time; a gain
+that does not declare it responds one step later, unless the user or the SSD states that it is direct.
 """
 
 import json

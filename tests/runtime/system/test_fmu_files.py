@@ -1,6 +1,6 @@
-"""Unpacked files of an FMU, and those shared when it is loaded again.
+"""Unpacked files of an FMU, and sharing of these files when it is loaded again.
 
-Truth: the FMU's own archive.
+Truth: the archive of the FMU.
 """
 
 import errno

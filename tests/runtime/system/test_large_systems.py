@@ -1,6 +1,6 @@
-"""Chains of ten different FMUs with ten connections each, a hundred components long under `make long`.
+"""Chains of ten different FMUs with ten connections each, of a hundred components under `make long`.
 
-Truth: the recursion that the chain computes, in numpy. `benchmarks/README.md` says how time and memory grow.
+Truth: the recursion of the chain, in numpy. `benchmarks/README.md` describes the growth of time and memory.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Files of other tools within the standard: simulated as if written our way.
+"""Files of other tools within the standard: simulated like files written by Perilune.
 
-Truth: the same system in our way of writing, sample by sample; pencil and paper for the tiny FMUs' answers.
+Truth: the same system as written by Perilune, sample by sample; results by hand for the tiny FMUs.
 """
 
 import re

@@ -1,7 +1,7 @@
-"""Communication steps and algorithms that other tools write into their systems.
+"""Communication steps and algorithms declared in systems by other tools.
 
-Truth: the same system with the step and the algorithm asked for; a recursion worked out by hand for inner systems
-with a step of their own.
+Truth: the same system with this step and algorithm as options; a recursion by hand for inner systems with a separate
+step.
 """
 
 import numpy as np

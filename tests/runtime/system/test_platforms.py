@@ -1,7 +1,7 @@
-"""Platforms that FMI 2.0 has no name for, and those that an FMU has no library for: one line says so.
+"""Platforms without a name in FMI 2.0, and platforms for which an FMU has no library: one line each.
 
-Truth: the platforms of FMI 2.0.4, section 2.3, which are of x86 alone, and of FMI 3.0.1, which are not; macOS loads
-universal libraries by the name of FMI 2.0.
+Truth: the platforms of FMI 2.0.4, section 2.3, all x86, and the further platforms of FMI 3.0.1; macOS loads universal
+libraries under the name of FMI 2.0.
 """
 
 import platform

@@ -1,6 +1,6 @@
 """Connectors that are neither input, output nor parameter: local, constant, calculated and structural parameters.
 
-Truth: what the FMUs do; which of them may be connected is the table of SSP 2.0.
+Truth: the behaviour of the FMUs; the table of permitted connections in SSP 2.0.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
-"""Names of FMUs that became values of another: they are simulated as before, and the command line says what to write.
+"""Names of FMUs that became values of another FMU: they are simulated as before, and a message states the new form.
 
-Truth: the simulation with the block and its values set by the user, signal by signal.
+Truth: the simulation with the new block and its values, signal by signal.
 """
 
 import numpy as np

@@ -1,7 +1,8 @@
-"""Order of execution on tiny FMUs, every row computed by hand; both flavours of the FMUs.
+"""Order of execution of tiny FMUs, in both flavours, with every row computed by hand.
 
-Truth: pencil and paper. A ramp counts 1, 1.5, 2, ...; a gain triples at the same time; a delay returns its input of one
-step ago. Sequential: followers answer for their own time. Jacobi: all use the last exchange.
+Truth: results by hand. A ramp counts 1, 1.5, 2, ...; a gain triples at the same time; a delay returns its input of one
+step before. In the sequential algorithm followers respond at the same time; in the Jacobi algorithm all FMUs use the
+last exchange.
 """
 
 import itertools

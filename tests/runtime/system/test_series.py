@@ -1,6 +1,6 @@
-"""Inputs over time as files and arrays: what is read, and one line for what is wrong.
+"""Inputs over time as files and arrays: reading, and one line for each error.
 
-Truth: the numbers written; `fmpy.read_csv`.
+Truth: the written numbers; `fmpy.read_csv`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Swapping a component's FMU: what fits flies, what does not is refused by the connector that is missing.
+"""Replacement of a component's FMU: a compatible FMU runs, any other is refused with the missing connector.
 
-Truth: the FMUs' own connectors; guidances that share an interface; gains with known factors.
+Truth: the connectors of the FMUs; guidances that share an interface; gains with known factors.
 """
 
 import shutil

@@ -1,7 +1,7 @@
 """Describing functions: analysis/stability/describing_function.py.
 
-Truth: the Fourier integral of each element's own law, by scipy's adaptive quadrature between its switchings; the
-describing functions of python-control, where it has the element; known peaks and limits.
+Truth: the Fourier integral of each element, by scipy's adaptive quadrature between its switching points;
+python-control's describing functions of the elements that it supports; known peaks and limits.
 """
 
 import math

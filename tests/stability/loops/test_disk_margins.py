@@ -1,4 +1,4 @@
-"""Disk margins of several loops against python-control, of one loop, and against poles of perturbed loops."""
+"""Disk margins of several loops. Truth: python-control for one loop, and poles of perturbed loops."""
 
 from __future__ import annotations
 

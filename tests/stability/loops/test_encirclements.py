@@ -1,4 +1,4 @@
-"""Encirclements against poles from eigenvalues and against python-control's Nyquist count."""
+"""Encirclements. Truth: poles from eigenvalues, and python-control's Nyquist count."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Growth of what a disturbance changes: solutions of difference equations, whose factor a sample is known."""
+"""Growth of a disturbance. Truth: solutions of difference equations with a known factor per sample."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
 """Limit cycles by harmonic balance: analysis/stability/harmonic_balance.py.
 
 Truth: closed forms, python-control's describing_function_response, a dense grid, and loops simulated sample by sample
-with their real relay or pulses, whose end is measured by ``find_oscillation`` (tested by itself).
+with a real relay or pulses, whose final oscillation is measured by ``find_oscillation`` (tested separately).
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Margins against closed forms, closed-loop poles and python-control."""
+"""Margins. Truth: closed forms, closed-loop poles and python-control."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Multisines: which lines are excited, how they are read again, and that they show nonlinearity."""
+"""Multisines: excited lines, their measurement, and detection of nonlinearity."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Margins between measured lines: of loops whose response is known at every frequency.
+"""Margins between measured lines, for loops whose response is known at every frequency.
 
-Truth: the margins of the response itself, which test_margins.py compares with python-control.
+Truth: the margins of the exact response, which test_margins.py compares with python-control.
 """
 
 import control

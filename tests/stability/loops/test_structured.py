@@ -1,4 +1,4 @@
-"""Bounds of structured singular values that are known in closed form, and SLICOT's."""
+"""Bounds of structured singular values. Truth: closed forms, and SLICOT."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A rare failure of a real campaign, compared with the trials of a batch that fail.
 
-Truth: the share of a batch's trials that fail, with its exact binomial interval (Clopper and Pearson); a million trials
-under `make long`, and counts of stored ones of a noisy landing.
+Truth: the share of failed trials in a batch, with its exact binomial interval (Clopper and Pearson); a million trials
+under `make long`, and stored counts of trials of a noisy landing.
 """
 
 import pytest

@@ -1,7 +1,7 @@
-"""Subset simulation over draws and noise, of failures whose probability is known.
+"""Subset simulation over draws and noise, for failures of known probability.
 
-Truth: the limit state is a sum of independent normal numbers, one for each noise source and for the draws; repeats with
-other random numbers say how often an interval covers, and how far estimates scatter.
+Truth: the limit state is a sum of independent normal numbers, one for each noise source and for the draws; repetitions
+with other random numbers, for the coverage of intervals and the scatter of estimates.
 """
 
 import numpy as np

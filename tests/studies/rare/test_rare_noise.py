@@ -1,7 +1,7 @@
-"""A failure that noise makes, flown: noise is random unless it is held, and what failed flies again.
+"""Simulated failure due to noise: noise is random unless held, and failed trials can be replayed.
 
-Truth: the share of a batch's trials that fail, with its exact binomial interval; flights again from the written draws,
-to the last bit; another FMI client of the same file: a batch with the streams of one trial.
+Truth: the share of failed trials in a batch, with its exact binomial interval; replays from the written draws, to the
+last bit; a batch with the streams of one trial.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""A simulated rare failure: output of the command on a system whose failure has a closed form.
+"""Rare failure of a simulated system with a failure probability in closed form: output of the command.
 
 Truth: Phi(-beta) of the linear system; repeated simulations of the reported trials; one worker.
 """

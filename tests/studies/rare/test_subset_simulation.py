@@ -1,7 +1,7 @@
-"""Subset simulation of failures whose probability is known.
+"""Subset simulation of failures of known probability.
 
-Truth: closed forms of normal and chi-squared variables; repeats with other random numbers, which say how often an
-interval covers and how far estimates scatter.
+Truth: closed forms of normal and chi-squared variables; repetitions with other random numbers, for the coverage of
+intervals and the scatter of estimates.
 """
 
 import numpy as np

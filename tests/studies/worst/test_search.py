@@ -1,4 +1,4 @@
-"""The search for the largest value in a cube.
+"""Search for the largest value in a cube.
 
 Truth: functions whose largest value is known; the largest of ten times as many random points.
 """

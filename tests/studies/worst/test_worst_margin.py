@@ -1,8 +1,7 @@
-"""The worst margin of a loop over the draws of a campaign.
+"""Worst margin of a loop over the draws of a campaign.
 
-Truth: a gain margin in closed form, that of the nominal loop over the gain that is drawn; margins and poles by
-python-control on support/loops/exact_systems.py at the worst draws and on a grid over the box; repeated studies of the
-reported points.
+Truth: a gain margin in closed form (nominal margin divided by the drawn gain); margins and poles by python-control on
+support/loops/exact_systems.py at the worst draws and on a grid over the box; repeated studies of the reported points.
 """
 
 import json

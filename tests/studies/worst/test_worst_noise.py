@@ -1,6 +1,7 @@
-"""The worst case under noise: the same realisations at every point, fresh ones for the point that wins.
+"""Worst case under noise: the same realisations at every point, fresh realisations for the worst point.
 
-Truth: order statistics of the flights, which fly again from the written draws to the last bit; options by their words.
+Truth: order statistics of the simulations, which are repeated from the written draws to the last bit; messages on
+options.
 """
 
 import numpy as np

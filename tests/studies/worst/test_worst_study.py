@@ -1,7 +1,7 @@
-"""The worst case by simulation.
+"""Worst case by simulation.
 
-Truth: the corner of the box that is the worst of a linear system; repeated simulations of the reported points; random
-trials inside the same box, fifty times as many under `make long`.
+Truth: the worst corner of the box of a linear system; repeated simulations of the reported points; random trials inside
+the same box, fifty times as many under `make long`.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""A dask scheduler and workers on this machine, each a separate process, as on others."""
+"""A dask scheduler and workers on this machine, in separate processes as on a cluster."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Campaigns in folders: the bytes that they leave, and processes of theirs that are killed."""
+"""Campaigns in folders: the bytes that they write, and their processes, which can be killed."""
 
 import hashlib
 import os

@@ -1,4 +1,4 @@
-"""Folders of many trials, written as a batch writes them and without flying."""
+"""Folders of many trials in the form of a batch, without simulation."""
 
 import json
 from dataclasses import replace

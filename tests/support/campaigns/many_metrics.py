@@ -1,4 +1,4 @@
-"""Folders of campaigns with many metrics for `show`, written as a batch writes them, without simulating."""
+"""Folders of campaigns with many metrics for `show`, in the form of a batch, without simulation."""
 
 import json
 import tomllib

@@ -1,4 +1,4 @@
-"""A campaign that is client, asked without a browser and without a network."""
+"""Client of a campaign served by `show`, without browser and network."""
 
 from __future__ import annotations
 

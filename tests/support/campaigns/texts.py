@@ -1,4 +1,4 @@
-"""Campaigns from texts that tests write."""
+"""Campaigns from texts of tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of trials for tests of what reads them."""
+"""Tables of trials for tests of their readers."""
 
 from perilune.analysis.campaigns.columns import Column
 from perilune.analysis.campaigns.trials import TrialTable

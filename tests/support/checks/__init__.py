@@ -1,5 +1,6 @@
-"""Checks of blocks: trajectories computed by truths that share no line with the blocks.
+"""Checks of blocks: trajectories computed by truths that share no code with the blocks.
 
-A module per kind of block has TRUTHS, FMU name -> function that computes the `Check`. They import nothing of
-`fmus_src`. `python -m tests.support.checks` writes all, `python -m tests.support.checks NAME` one.
+The module of each kind of block contains TRUTHS, from FMU names to functions that compute the `Check`. These modules
+import nothing from `fmus_src`. `python -m tests.support.checks` writes all checks, `python -m tests.support.checks
+NAME` one.
 """

@@ -1,4 +1,4 @@
-"""Writes checks/NAME.csv and checks/NAME.toml next to the blocks: of all truths, or of the named ones."""
+"""Writer of checks/NAME.csv and checks/NAME.toml next to the blocks, for all truths or the named ones."""
 
 import sys
 from pathlib import Path

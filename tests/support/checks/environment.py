@@ -1,4 +1,4 @@
-"""Truths of the surroundings of a spacecraft: published series and tables, coded in `checks.space`."""
+"""Truths of the space environment: published series and tables, coded in `checks.space`."""
 
 import numpy as np
 

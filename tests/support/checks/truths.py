@@ -1,4 +1,4 @@
-"""All truths: FMU name -> kind of block and function that computes the check."""
+"""All truths: kind of block and function that computes the check, by FMU name."""
 
 from collections.abc import Callable
 

@@ -1,1 +1,1 @@
-"""Descent laws that know the engine, without their code: profiles, turns, steering; and flights of the blocks."""
+"""Descent laws with engine limits, independent of the blocks (profiles, turns, steering), and descents."""

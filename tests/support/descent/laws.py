@@ -1,4 +1,4 @@
-"""Shared code of tests of the descent laws: the classes, their states, and flights over a round Moon."""
+"""Shared code of tests of the descent laws: classes, states, and descents over a spherical Moon."""
 
 import numpy as np
 

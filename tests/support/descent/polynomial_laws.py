@@ -1,8 +1,8 @@
-"""Descent by a thrust acceleration that is a sum of powers of the time to go, without the blocks' code.
+"""Descent by a thrust acceleration that is a sum of powers of the time to go, independent of the blocks.
 
 The profile a_f + d1 s^gamma + d2 s^gamma_2, s the fraction of the time to go, is the solution of the two boundary
-conditions by `numpy.linalg.solve`; positions are double integrals of its powers; times are searched as the blocks'
-descriptions say, by a grid and golden section over numpy arrays.
+conditions by `numpy.linalg.solve`; positions are double integrals of its powers; times to go are searched as described
+for the blocks, by a grid and golden section over numpy arrays.
 """
 
 from dataclasses import dataclass

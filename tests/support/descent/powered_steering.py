@@ -1,7 +1,7 @@
-"""Constant thrust with a direction linear in time that meets a position and velocity, without the blocks' code.
+"""Constant thrust with a direction linear in time that meets a position and velocity, independent of the blocks.
 
-To second order in the turning rate, as powered explicit guidance has it: moments of the thrust acceleration by
-Gauss and Legendre's rule, and the conditions solved by scipy.
+The solution is to second order in the turning rate, as in powered explicit guidance: moments of the thrust acceleration
+by Gauss-Legendre quadrature, and the conditions solved by scipy.
 """
 
 import numpy as np

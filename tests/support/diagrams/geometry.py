@@ -1,4 +1,4 @@
-"""The SVG of a block diagram read back as geometry, without the code that drew it."""
+"""Geometry of a block diagram, read from its SVG independently of the code that drew it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Graphs of systems, hand-written or by hypothesis, without any FMU."""
+"""Graphs of systems without FMUs, hand-written or generated at random."""
 
 from __future__ import annotations
 

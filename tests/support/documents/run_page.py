@@ -1,4 +1,4 @@
-"""The page of a run, written from its result."""
+"""Page of a run, written from its result."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Axes as matplotlib had them in pages: lanes with names, decades, lines of flights that failed."""
+"""Axes as drawn by matplotlib in pages: rows with names, decades, lines of failed trials."""
 
 from __future__ import annotations
 

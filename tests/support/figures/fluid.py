@@ -1,4 +1,4 @@
-"""Positions of elements of a figure of any width, computed at one width."""
+"""Positions of the elements of a figure of variable width, computed at one width."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lines of quantities in figures, known to the page by name, unit and exact SI numbers."""
+"""Lines of quantities in figures, with name, unit and exact SI numbers."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The charts of matplotlib's figure after it was drawn: what they state in full, or none.
+"""Charts read from a drawn figure of matplotlib: complete charts, or none.
 
-Titles, labels and legends remain the picture's, which the page's script shows below its own lines.
+Titles, labels and legends remain in the picture, which the page's script shows below its lines.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The lines and areas of a chart, of the kinds that it states; everything else raises UnstatedError."""
+"""Lines and areas of a chart, of the supported kinds; all others raise UnstatedError."""
 
 from __future__ import annotations
 

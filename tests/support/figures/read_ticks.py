@@ -1,4 +1,4 @@
-"""The axis of a chart: its ends, and what matplotlib wrote at its ticks."""
+"""Axis of a chart: its limits, and the labels that matplotlib wrote at its ticks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The refusal of what no chart states."""
+"""Error of a drawing that charts do not support."""
 
 
 class UnstatedError(Exception):

@@ -1,1 +1,1 @@
-"""Flights flown without the project: independent integrations, and what blocks are flown with."""
+"""Trajectories independent of the project, and simulations of single blocks."""

@@ -1,4 +1,4 @@
-"""A braking flight to the landing site and what sensors measure on it: plain numpy, no code of the components.
+"""Braking trajectory to the landing site with sensor measurements: plain numpy, independent of the components.
 
 The position is a cubic in time from 265 km before the site, 18.15 km high and at 1689 m/s, to 1.5 km above it at
 rest, so position and velocity are closed forms, and the specific force is acceleration minus central gravity.

@@ -1,7 +1,8 @@
-"""A powered descent of least propellant as one cone problem with equalities, solved by Clarabel.
+"""Powered descent of least propellant as a cone problem with equalities, solved by Clarabel.
 
-Formulation and solver have nothing in common with the blocks: all states are unknowns, the end is met exactly, and what
-is eliminated on board is an equality here. Taken over: the intervals, and what a first problem is expanded about.
+Formulation and solver differ from the blocks: all states are unknowns, the end is met exactly, and equations that are
+eliminated on board are equalities here. Adopted from the block: the intervals, and the expansion point of the first
+problem.
 """
 
 from dataclasses import dataclass, replace

@@ -1,7 +1,7 @@
-"""An entry once more, by numpy: Cartesian inertial axes and a quaternion instead of path angles and attack.
+"""Independent simulation of an entry by numpy, in Cartesian inertial axes and with a quaternion.
 
-Written from Newton's and Euler's equations, the coefficients by scipy's splines on Newton's formulas, the atmosphere by
-its definition. Knows nothing of the FMUs.
+It is written from Newton's and Euler's equations, with coefficients by scipy's splines on Newtonian formulas and the
+atmosphere by its definition, independent of the FMUs.
 """
 
 import numpy as np

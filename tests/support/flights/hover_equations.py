@@ -1,4 +1,4 @@
-"""The simplified hover-to-hover programme by the full equations of the paper (Huang 2017), with scipy's DOP853."""
+"""Simplified hover-to-hover programme by the full equations of the paper (Huang 2017), with scipy's DOP853."""
 
 import math
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""Hover guidance alone, and a point mass that flies its commands, integrated by scipy."""
+"""Hover guidance alone, and a point mass that follows its commands, integrated by scipy."""
 
 import numpy as np
 from scipy.integrate import solve_ivp

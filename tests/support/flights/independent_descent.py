@@ -1,7 +1,7 @@
-"""The planar lunar descent flown a second time: the published equations and the law written out, no matrix.
+"""Independent planar lunar descent: the published equations and the law written out, without a matrix.
 
-Diveev, Pupkov and Sofronova 2013. `encoded_law` is what the published matrix encodes; `printed_law` is what
-the paper prints. m, m/s, s, rad, kg and, for thrust, kgf.
+Source: Diveev, Pupkov and Sofronova 2013. `encoded_law` is the law that the published matrix encodes, `printed_law` the
+law printed in the paper. Units: m, m/s, s, rad, kg and, for thrust, kgf.
 """
 
 import math

@@ -1,10 +1,10 @@
-"""The lunar landing flown a second time: plain numpy, no code in common with the components.
+"""Independent simulation of the lunar landing: plain numpy, no code in common with the components.
 
-Plant and analytic terminal guidance in one loop, written from the published formulas in angles with
-their known corrections. What it shares with the components is the contract only: a command holds for
-one guidance cycle, its thrust points along normalised(d + d' (t - command_time)) meanwhile, motion is
-integrated by the classic Runge-Kutta method with substeps of at most 0.1 s, and a flight ends with the
-first cycle whose time-to-go is shorter than the cycle, or with a last burn of the time-to-go that is left.
+Plant and analytic terminal guidance in one loop, written from the published formulas in angles with their known
+corrections. It shares only the contract with the components: a command holds for one guidance cycle, during which
+thrust points along normalised(d + d' (t - command_time)), motion is integrated by the classic Runge-Kutta method with
+substeps of at most 0.1 s, and a flight ends with the first cycle whose time to go is shorter than the cycle, or with a
+last burn of the remaining time to go.
 
 Frame: landing site, x north, y west, z up; m, m/s, s, rad.
 """

@@ -1,6 +1,6 @@
-"""The terminal guidances' problem without their code: the published box, roots and thrust by numpy and mpmath.
+"""Problem of the terminal guidances, independent of their code: published box, roots and thrust by numpy and mpmath.
 
-The thrust acceleration a0 + a1 t is mpmath's solution of the boundary conditions, times-to-go are `numpy.roots` of the
+The thrust acceleration a0 + a1 t is mpmath's solution of the boundary conditions, times to go are `numpy.roots` of the
 conditions multiplied out as polynomials.
 """
 

@@ -1,4 +1,4 @@
-"""Flights of a point mass under a guidance in a native block."""
+"""Trajectories of a point mass under the guidance of a native block."""
 
 from dataclasses import dataclass
 

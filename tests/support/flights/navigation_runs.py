@@ -1,4 +1,4 @@
-"""Navigation blocks flown through measurements of a whole flight, as Python objects and as native FMUs."""
+"""Navigation blocks run through the measurements of a complete flight, as Python objects and as native FMUs."""
 
 import ctypes
 

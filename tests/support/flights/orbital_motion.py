@@ -1,6 +1,6 @@
-"""Attitude on a circular orbit once more, by numpy: direction cosines in inertial axes instead of angles.
+"""Independent simulation of attitude on a circular orbit by numpy, with direction cosines in inertial axes.
 
-Written from Euler's equations and the gravity gradient of a rigid body (Hughes 1986, sections 3.1 and 8.1) alone.
+It is written from Euler's equations and the gravity gradient of a rigid body (Hughes 1986, sections 3.1 and 8.1).
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""An observer of the orbital slot fed with samples, tick by tick."""
+"""Run of an observer of the orbital attitude, sample by sample."""
 
 from importlib import import_module
 

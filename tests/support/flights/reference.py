@@ -1,4 +1,4 @@
-"""Flights compared with those of the reference loop: rows to the bit, and status."""
+"""Comparison of simulations with the reference loop: rows to the bit, and status."""
 
 from __future__ import annotations
 

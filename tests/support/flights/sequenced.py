@@ -1,4 +1,4 @@
-"""The landing sequencer stepped with what a test lets it see: on its orbit, braking, hovering."""
+"""Landing sequencer stepped with inputs of a test: on the orbit, braking, hovering."""
 
 import math
 

@@ -1,7 +1,7 @@
-"""Shared code of tests of the terminal guidances: classes, commands, flights.
+"""Shared code of tests of the terminal guidances: classes, commands, descents.
 
-`flight` runs plant and guidance in turn, as the co-simulation schedules them. What has no code in common with the
-components is in `linear_thrust`.
+`flight` steps plant and guidance in turn, like the co-simulation. Code that is independent of the components is in
+`linear_thrust`.
 """
 
 import numpy as np

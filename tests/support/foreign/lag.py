@@ -1,4 +1,4 @@
-"""A lag as others export it: in C, without `dependencies` in its model description, and no memory to be had of it."""
+"""Lag as exported by other tools: in C, without `dependencies` in its model description and without state access."""
 
 from __future__ import annotations
 

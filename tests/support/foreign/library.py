@@ -1,4 +1,4 @@
-"""The C files of test FMUs as shared libraries, each compiled once for each choice of macros."""
+"""Shared libraries of the C files of test FMUs, each compiled once for each choice of macros."""
 
 from __future__ import annotations
 

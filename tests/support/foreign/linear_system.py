@@ -1,4 +1,4 @@
-"""A system whose failures have closed forms: its outputs are linear in three normal draws."""
+"""System with failure probabilities in closed form: its outputs are linear in three normal draws."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Builds the odd FMU of this folder with the quirks that a test asks for."""
+"""Builder of the odd FMU of this folder with the quirks requested by a test."""
 
 from __future__ import annotations
 

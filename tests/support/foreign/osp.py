@@ -1,4 +1,4 @@
-"""OspSystemStructure.xml in a few words, and the values that libcosim gets of one."""
+"""OspSystemStructure.xml in short form, and its results in libcosim."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""An FMU of either version of FMI that passes numbers on, with the units that a test declares."""
+"""FMU of either version of FMI that passes numbers on, with units declared by a test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A ramp and a gain as we write them, to which the same system in other tools' writing is compared."""
+"""Ramp and gain as written by Perilune, for comparison with the same system as written by other tools."""
 
 import numpy as np
 

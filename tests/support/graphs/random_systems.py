@@ -1,7 +1,7 @@
-"""Random systems by the interpreted loop: the rows of the reference loop to the bit, however the flight ends.
+"""Random systems in the interpreted loop, compared with the reference loop to the bit, for any end of the simulation.
 
-Connections of all types with transformations and mappings, faults, components with longer steps, a parameter driven
-over time, what is recorded, both algorithms.
+Varied are connections of all types with transformations and mappings, faults, components with longer steps, a parameter
+driven over time, recorded variables, and both algorithms.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""Random systems of the blocks of builders.py: connections of all types, faults of connectors and tunable parameters,
-what is recorded, the algorithm."""
+"""Random systems of the blocks of builders.py: connections, faults, tunable parameters, records, algorithm."""
 
 from hypothesis import strategies as st
 

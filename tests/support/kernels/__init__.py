@@ -1,1 +1,1 @@
-"""Kernels good and bad, native instances, and programs in C that drive FMUs."""
+"""Valid and invalid kernels, native instances, and C programs that drive FMUs."""

@@ -1,4 +1,4 @@
-"""One kernel per rule of the subset that breaks it, at the line marked ``# here``."""
+"""One kernel per rule of the subset that violates the rule, at the line marked ``# here``."""
 
 # Bodies of step, by the rule of subset_table.RULES that they break.
 STEPS = {

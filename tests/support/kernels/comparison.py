@@ -1,4 +1,4 @@
-"""One block in Python and in C, called with the same random values and compared to the last bit."""
+"""Comparison of a block in Python and in C, with the same random values, to the last bit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A block that calls every elementary function, with arguments of all sizes from its generator."""
+"""Block that calls every elementary function, with arguments of all magnitudes from its generator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blocks that say everything that matrices can be used for, and every fault, for comparison with their C."""
+"""Blocks with every use of matrices, and every fault, for comparison with their C."""
 
 from __future__ import annotations
 

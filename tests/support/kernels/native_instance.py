@@ -1,4 +1,4 @@
-"""A native FMU's library driven through ctypes, with the interface of perilune.fmus_src.runtime.BlockInstance."""
+"""Library of a native FMU driven through ctypes, with the interface of perilune.fmus_src.runtime.BlockInstance."""
 
 from __future__ import annotations
 

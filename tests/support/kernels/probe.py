@@ -1,4 +1,4 @@
-"""A block whose behaviour is known by construction, and its variables by name."""
+"""Block with behaviour known by construction, and its variables by name."""
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.mathlib.rng import seed_streams, uniform

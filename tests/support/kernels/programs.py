@@ -1,4 +1,4 @@
-"""Programs of `checksum_fmu.c` and one block: its C, by any compiler for any processor, or its FMU's library."""
+"""Programs of `checksum_fmu.c` and one block: its C, by any compiler for any processor, or the library of its FMU."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blocks that say everything that records and integrators can be used for, right and wrong."""
+"""Blocks with every use of records and integrators, valid and invalid."""
 
 from __future__ import annotations
 

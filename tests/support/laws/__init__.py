@@ -1,1 +1,1 @@
-"""Laws and searches small enough to be known."""
+"""Small laws and searches with known results."""

@@ -1,4 +1,4 @@
-"""Random network operators for tests, and what is true of them, worked out from the matrix alone."""
+"""Random network operators for tests, and their properties, computed from the matrix alone."""
 
 import numpy as np
 from hypothesis import strategies as st

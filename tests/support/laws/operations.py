@@ -1,6 +1,6 @@
-"""The operations of network operators by numpy, and a node's value from those of its predecessors.
+"""Operations of network operators by numpy, and the value of a node from the values of its predecessors.
 
-Saturation as docs/systems/lunar_descent_2d.md has it: powers and products at +-1e8, exp where it exceeds 1e8.
+Saturation as in docs/systems/lunar_descent_2d.md: powers and products at +-1e8, exp if it exceeds 1e8.
 """
 
 from functools import cache

@@ -1,4 +1,4 @@
-"""A cheap stand-in for flights: a law is worth what it misses a known formula by, point by point."""
+"""Cheap replacement for simulations: a law is evaluated by its difference from a known formula, point by point."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Blocks in a file of a user's, whose behaviour is known exactly: the FMUs of exact_systems.py."""
+"""Blocks in a user's file with exactly known behaviour: the FMUs of exact_systems.py."""
 
 from __future__ import annotations
 

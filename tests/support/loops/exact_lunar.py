@@ -1,4 +1,4 @@
-"""The lunar landing's loops with a frozen plan, hovering at the target, in closed form, axis by axis.
+"""Loops of the lunar landing with a frozen plan, hovering at the target, in closed form, axis by axis.
 
 With x the offset from the target, v its rate, k = mu/r^3 and T the frozen time-to-go, the plan a0 + a1 t is
 
@@ -8,14 +8,15 @@ or with the gain 12 of Apollo's quartic and a final thrust that hovers, which is
 
     a0 = (-12/T^2 - n) x - (6/T) v       a1 = (48/T^3 + n/T) x + (18/T^2) v
 
-where n is the gradient of gravity, -k across and 2 k along the vertical: `gravity_correction` takes it as linear in
+where n is the gradient of gravity, -k across and 2 k along the vertical; with `gravity_correction` gravity is linear in
 time. Communication points are h apart, and estimates are the truth.
 
-Across: the direction commanded at kh is the plan's h + lead later, y_k = a0 + (h + lead) a1. The allocation turns at
-an even rate from y_(k-1) at kh to y_k at (k + 1)h, and the attitude follows with a lag as long as the lead.
-Along: the thrust commanded is the plan's mean over the cycle, y_k = a0 + a1 h/2, held, and followed with a lag.
+Across: the direction commanded at kh is the plan's h + lead later, y_k = a0 + (h + lead) a1. The allocation rotates at
+a constant rate from y_(k-1) at kh to y_k at (k + 1)h, and the attitude follows with a lag equal to the lead. Along: the
+commanded thrust is the plan's mean over the cycle, y_k = a0 + a1 h/2, which is held and followed with a lag.
 
-L(z) is minus the transfer from what acts to y. Derivation: docs/systems/lunar_terminal_guidance.md, "A frozen plan".
+L(z) is minus the transfer function from the acting acceleration to y. Derivation:
+docs/systems/lunar_terminal_guidance.md, "A frozen plan".
 """
 
 from dataclasses import dataclass

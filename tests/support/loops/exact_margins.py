@@ -1,7 +1,7 @@
-"""Margins of a sampled state space by python-control, with what its functions leave out.
+"""Margins of a sampled state space by python-control, with crossings that its functions omit.
 
-Crossings are those of `stability_margins` on a frequency response as dense as its spline needs for 1e-5 dB; it has
-none at the ends, where L is real: frequency 0 and the Nyquist frequency.
+Crossings are from `stability_margins` on a frequency response dense enough for its spline to be accurate to 1e-5 dB; it
+omits crossings at the ends, frequency 0 and the Nyquist frequency, where L is real.
 """
 
 from __future__ import annotations

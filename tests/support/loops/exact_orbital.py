@@ -1,7 +1,7 @@
 """The loops of orbital_attitude in closed form: the linear motion about the reference state, held torque, placed gains.
 
-Written from Euler's equations by numpy; knows nothing of the FMUs. The estimate is taken for the state, which ideal
-sensors and the right inertia make it.
+It is written from Euler's equations by numpy, independent of the FMUs. The estimate is assumed to equal the state, as
+with ideal sensors and the true inertia.
 """
 
 import control

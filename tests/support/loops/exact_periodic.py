@@ -1,7 +1,7 @@
-"""A linear system that is truly periodic, as FMUs and as plain recurrences.
+"""Linear periodic system, as FMUs and as plain recurrences.
 
-Two coupled double integrators; axis 1 is controlled at every second, axis 2 at every third step, so that everything
-repeats every six. The recurrences are written down here again, without FMUs.
+Of two coupled double integrators axis 1 is controlled at every second step and axis 2 at every third, so the system has
+a period of six steps. The recurrences are written here independently of the FMUs.
 """
 
 from __future__ import annotations

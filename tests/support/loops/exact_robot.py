@@ -1,12 +1,13 @@
-"""The robot's sampled control loops in closed form: means of samples, Tustin's lead, double integrator, late jets.
+"""Sampled control loops of the robot in closed form: means of samples, Tustin's lead, double integrator, delayed jets.
 
 Per axis, x being the robot's error from its plan and T the period: the lead's input at tick k is the mean y_k of the
-samples at kT - T + T/n, ..., kT; the acceleration it asks for acts from kT + d until that of the next tick does:
+samples at kT - T + T/n, ..., kT; the acceleration that it commands acts from kT + d until the acceleration of the next
+tick:
 
     x(kT + s) = x_k + s v_k + min(s, d) (s - min(s, d)/2) a_(k-1) + max(s - d, 0)^2/2 a_k        0 <= s <= T
 
-which is linear, so y_(k+1) is the mean of this over s = iT/n, i = 1 ... n. L(z) is the lead times the transfer from a
-to y: minus the loop's transfer, since a = -C y. Derivation: docs/theory/rendezvous.md.
+which is linear, so y_(k+1) is the mean of this over s = iT/n, i = 1 ... n. L(z) is the lead times the transfer function
+from a to y, which is minus the loop transfer function, since a = -C y. Derivation: docs/theory/rendezvous.md.
 """
 
 import math

@@ -1,7 +1,7 @@
 """The loops of satellite_pointing in closed form: the linear motion at rest, held motor torques, sampled feedback.
 
-Written from the equations of Schaub and Junkins by numpy; knows nothing of the FMUs. Estimates are taken for the truth.
-Momentum of body and wheels together is taken for 0, so that the axes are coupled by products of inertia alone.
+It is written from the equations of Schaub and Junkins by numpy, independent of the FMUs. Estimates are assumed to equal
+the truth, and the total momentum of body and wheels to be 0, so that the axes are coupled by products of inertia alone.
 """
 
 import control

@@ -1,7 +1,7 @@
-"""Systems of tiny FMUs whose loops are known exactly: blocks in the sense of a user, descriptions, loop gains.
+"""Systems of tiny FMUs with exactly known loops: users' blocks, descriptions, loop gains.
 
 A plant's block steps by its closed form over a hold, the loop gain next to it comes from python-control's zero-order
-hold of the continuous plant: neither knows of the other.
+hold of the continuous plant: the two are independent of each other.
 """
 
 from __future__ import annotations

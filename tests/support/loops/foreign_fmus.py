@@ -1,4 +1,4 @@
-"""FMUs as others make them: one in C by hand, one by stock pythonfmu; no memory to be had of them, and no units."""
+"""Foreign FMUs: one in C by hand, one by stock pythonfmu, without state access and units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sampled state-space loops whose margins are known from elsewhere, and the responses of any of them."""
+"""Sampled state-space loops with margins known from other sources, and their frequency responses."""
 
 from __future__ import annotations
 

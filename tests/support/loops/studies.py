@@ -1,7 +1,7 @@
-"""Studies of tiny systems whose loops are known exactly, as `perilune stability` makes them, for the tests of pages.
+"""Studies of tiny systems with exactly known loops, as by `perilune stability`, for the tests of pages.
 
 Four systems of exact_systems.py: a double integrator with delay, over a campaign with unstable trials and over a sweep
-into instability; two coupled channels; a relay; a loop of FMUs that are not ours, known by injection only.
+into instability; two coupled channels; a relay; a loop of foreign FMUs, studied by injection only.
 """
 
 from __future__ import annotations

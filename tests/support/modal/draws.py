@@ -1,4 +1,4 @@
-"""Random plants, spectra that are not too close, and what a placement of them must satisfy."""
+"""Random plants, spectra with sufficient distances, and conditions on a placement."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Native FMUs: compiled through the cache, flown by FMPy, driven under sanitizers."""
+"""Native FMUs: compiled through the cache, simulated by FMPy, driven under sanitizers."""

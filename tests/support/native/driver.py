@@ -1,4 +1,4 @@
-"""The program that drives an FMU of FMI 3.0, `drive_fmi3.c`: what it reads of a block, and what it prints."""
+"""Program that drives an FMU of FMI 3.0, `drive_fmi3.c`: its input for a block, and its output."""
 
 from __future__ import annotations
 

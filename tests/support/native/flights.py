@@ -1,6 +1,6 @@
-"""A block's check flown by FMPy's calls, in FMI 2.0 element by element and in FMI 3.0 with whole arrays.
+"""Simulation of a block's check by FMPy's calls, in FMI 2.0 element by element and in FMI 3.0 with arrays.
 
-FMPy's `simulate_fmu` stacks the inputs of a type, which takes them all to be of one size.
+FMPy's `simulate_fmu` stacks the inputs of a type, which requires equal sizes.
 """
 
 from __future__ import annotations

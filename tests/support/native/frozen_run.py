@@ -1,4 +1,4 @@
-"""A run of a system as C data: the structures of run.h with their arrays, for a program without Python."""
+"""Run of a system as C data: the structures of run.h with their arrays, for a program without Python."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Instances of a block with one interface: Python object, pythonfmu FMU, native FMUs of FMI 2.0 and 3.0.
 
-Elements are numbered as FMI 2.0's value references. A saved state's numbers can be replaced where it is stored, without
-any function that sets variables.
+Elements are numbered as FMI 2.0's value references. Numbers in a saved state can be replaced directly, without
+functions that set variables.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A native instance of a block whose variables are set and read whole, by name."""
+"""Native instance of a block whose variables are set and read by name, including arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Systems as one FMU, built for this machine and flown by FMPy."""
+"""Systems as one FMU, built for this machine and simulated by FMPy."""
 
 import ctypes
 import weakref

@@ -1,4 +1,4 @@
-"""The FMU Manipulation Toolbox, which knows nothing of Perilune."""
+"""Calls of the FMU Manipulation Toolbox."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Windows by Wine, for programs that a test has built: installed by `make windows`."""
+"""Windows by Wine, for programs built by a test; `make windows` installs it."""
 
 from __future__ import annotations
 

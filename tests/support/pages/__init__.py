@@ -1,1 +1,1 @@
-"""Pages: what each must satisfy, results to draw, a browser."""
+"""Pages: properties of every page, results to draw, a browser."""

@@ -1,4 +1,4 @@
-"""A page in a real browser, headless: its DOM or a picture of it."""
+"""Page in a real browser, headless: its DOM or a picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hand-written batches to compare, stored as `perilune batch` stores them, without simulating."""
+"""Hand-written batches to compare, in the form of `perilune batch`, without simulation."""
 
 import tomllib
 from pathlib import Path

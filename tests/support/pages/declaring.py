@@ -1,4 +1,4 @@
-"""Descriptions of systems that declare figures."""
+"""Descriptions of systems with declared figures."""
 
 import re
 from functools import cache

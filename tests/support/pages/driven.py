@@ -1,4 +1,4 @@
-"""A page in a browser that a test drives: pointer, touch and keys, by Selenium and Debian's chromium-driver."""
+"""Page in a browser driven by a test: pointer, touch and keys, by Selenium and Debian's chromium-driver."""
 
 from __future__ import annotations
 

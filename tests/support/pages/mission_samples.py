@@ -1,6 +1,7 @@
-"""A hand-written run through phases, with closed-form answers, and the figures that it declares.
+"""Hand-written run through phases, with closed-form results, and its declared figures.
 
-Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180 s with `done` from 165 s on, then 5.
+There are 401 rows, half a second apart. Phase 1 lasts to 20 s, phase 2 to 150 s, phase 4 to 180 s, with `done` from 165
+s on, followed by phase 5.
 """
 
 import numpy as np

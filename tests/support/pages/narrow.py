@@ -1,6 +1,7 @@
-"""A page on screens of two widths, measured by a real browser: how small the text of its figures is, what runs out.
+"""Page on screens of two widths, measured by a real browser: smallest text of its figures, overflowing elements.
 
-Chromium's window is never narrower than 500 px, so the page stands in a frame of each width, with scripts and without.
+Chromium's window is never narrower than 500 px, so the page is shown in a frame of each width, with and without
+scripts.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Scripts of pages in node: functions called by themselves, and all of them under TypeScript's checker."""
+"""Scripts of pages in node: single functions, and all scripts under the TypeScript checker."""
 
 from __future__ import annotations
 

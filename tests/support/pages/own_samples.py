@@ -1,4 +1,4 @@
-"""Hand-written runs for the figures that a system declares: signals with closed-form answers, and the figures."""
+"""Hand-written runs for declared figures: signals with closed-form results, and the figures."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""A page on paper: what the browser prints."""
+"""Page on paper, as printed by the browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Hand-written results for the reports, without simulating."""
+"""Hand-written results for the reports, without simulation."""
 
 import tomllib
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The bundles of pages' scripts, which are not there where npm was not available."""
+"""Bundles of page scripts, which are missing if npm was not available."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The three studies of systems whose answers have closed forms, small, as Python users get them."""
+"""Small results of the three studies, for systems with closed-form answers, as returned to Python users."""
 
 from __future__ import annotations
 

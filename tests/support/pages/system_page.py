@@ -1,4 +1,4 @@
-"""The system of docs/write_a_system.md, taken from the page, and what a reader may write wrong in it."""
+"""System of docs/write_a_system.md, read from the page, and likely mistakes of a reader."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pages that several tests look at, written without a warning."""
+"""Pages shared by several tests, written without warnings."""
 
 import warnings
 from pathlib import Path

@@ -1,1 +1,1 @@
-"""Hand-written scenes of three dimensions, and their content in a page."""
+"""Hand-written three-dimensional scenes, and their content in a page."""

@@ -1,4 +1,4 @@
-"""A hand-written flight with a scene that has everything a scene can have, under any name."""
+"""Hand-written run with a scene that contains every kind of element, under any name."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Contents of a page's pictures of a scene, read back from their SVG."""
+"""Contents of the pictures of a scene on a page, read from their SVG."""
 
 import re
 

@@ -1,1 +1,1 @@
-"""Shared code of tests of a spacecraft and of its environment."""
+"""Shared code of tests of a spacecraft and its environment."""

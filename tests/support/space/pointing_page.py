@@ -1,4 +1,4 @@
-"""docs/systems/earth_pointing.md: its tables by section, and what its tests reduce flights with."""
+"""docs/systems/earth_pointing.md: its tables by section, and the evaluation of simulations for its tests."""
 
 import math
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""States of a spacecraft that several tests start from."""
+"""Initial states of a spacecraft, shared by several tests."""
 
 import numpy as np
 

@@ -1,6 +1,6 @@
-"""Campaigns on the workers of a dask scheduler, real processes of this machine that do not see the campaign's folder.
+"""Campaigns on the workers of a dask scheduler: processes of this machine without access to the campaign's folder.
 
-Truth: every file that the same campaign leaves when it flies here, in one thread.
+Truth: every file that the same campaign writes when it is simulated here, in one thread.
 """
 
 import random

@@ -1,6 +1,6 @@
-"""Content of a task: every trial once, some seconds of them.
+"""Content of tasks: every trial once, in tasks of some seconds.
 
-Truth: the list of all trials, and times that are known beforehand.
+Truth: the list of all trials, and durations known in advance.
 """
 
 from hypothesis import given

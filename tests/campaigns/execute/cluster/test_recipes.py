@@ -1,6 +1,6 @@
-"""The recipes of docs/studies/clusters.md as they stand there, and shards flown by processes that are killed.
+"""Recipes of docs/studies/clusters.md as printed, and shards simulated by processes that are killed.
 
-Truth: every file that the same campaign leaves when it flies in one command.
+Truth: every file that the same campaign writes in one command.
 """
 
 import os

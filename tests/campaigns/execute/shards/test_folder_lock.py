@@ -1,6 +1,6 @@
-"""Campaigns' folders in use: shards may be simulated by several processes, which nobody replaces meanwhile.
+"""Lock of a campaign's folder: several processes may simulate shards, while the folder cannot be replaced.
 
-Truth: what the processes that use a folder leave there, and the lock of SQLite, taken by hand.
+Truth: the files that processes leave in a folder, and SQLite's lock, taken by hand.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""A disk that fills up while a campaign flies: one line, nothing half-written, and the rest once there is room.
+"""Full disk during a campaign: an error of one line, no partial files, and continuation once there is space.
 
-Truth: what the same campaign leaves where there is room.
+Truth: the files of the same campaign on a disk with space.
 """
 
 import shlex

@@ -1,6 +1,6 @@
-"""A campaign of other elementary functions: its folder is read, and nothing is added to it.
+"""Campaign with a different version of the elementary functions: its folder is read, but cannot be extended.
 
-Truth: the manifest as it is written, with its version changed, or taken out as in folders of older versions.
+Truth: the manifest as written, with its version changed, or removed as in folders of older versions.
 """
 
 from __future__ import annotations

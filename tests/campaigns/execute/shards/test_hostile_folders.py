@@ -1,6 +1,6 @@
-"""Folders of campaigns of unknown origin: each is merged, or refused in one line that names file and element.
+"""Campaign folders of unknown origin: each is merged, or refused in one line that names file and element.
 
-Truth: a good folder, in which the tests change what they know; the errors are `InputError` and no others.
+Truth: a valid folder with known changes; every error is an `InputError`.
 """
 
 from __future__ import annotations

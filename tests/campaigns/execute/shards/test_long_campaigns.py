@@ -1,7 +1,7 @@
-"""Campaigns of many trials: parts are read, not all; draws by a counter; what pages show of a long one.
+"""Campaigns of many trials: partial reading, draws by a counter, and the content of pages.
 
-Truth: the same campaign in memory, the draws of single trials asked for by themselves, trials counted by hand, and the
-most memory that summing up takes, whose growth with the number of trials is what is wrong.
+Truth: the same campaign in memory, draws of single trials, trials counted by hand, and the peak memory of a summary,
+which may not grow with the number of trials.
 """
 
 import re

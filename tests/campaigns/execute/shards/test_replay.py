@@ -1,7 +1,7 @@
-"""`perilune replay FOLDER TRIAL`: a trial of a stored campaign again, of its folder alone.
+"""`perilune replay FOLDER TRIAL`: simulation of a trial of a stored campaign from its folder alone.
 
-Truth: the metrics that the campaign's folder has of the trial, compared to the last bit; a flight of the same draws by
-`simulate`; the page's own commands. The folder is moved, and its source files are removed.
+Truth: the stored metrics of the trial, compared to the last bit; `simulate` with the same draws; the commands on the
+page. The folder is moved, and its source files are removed.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Campaigns that are killed, interrupted, parted, extended: the bytes of one that was left in peace.
+"""Campaigns that are killed, interrupted, divided or extended: the same bytes as an undisturbed campaign.
 
-Truth: every file that the same campaign leaves in another folder, flown in one go.
+Truth: every file that the same campaign writes to another folder without interruption.
 """
 
 import random

@@ -1,6 +1,6 @@
 """--until-decided: a campaign ends with the first shard at whose end its requirements are decided.
 
-Truth: the same campaign flown to its end, its trials counted by hand at the looks of the stopping rule.
+Truth: the same campaign simulated to its end, with trials counted by hand at the looks of the stopping rule.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""The page of a batch."""
+"""Page of a batch. Truth: hand-written outcomes."""
 
 import math
 import re

@@ -1,6 +1,6 @@
-"""Recorded flights inside the page of a batch: which are chosen, and what of them.
+"""Recorded trials inside the page of a batch: selection of trials and of their data.
 
-Truth: the traces as the batch has them; counts by hand.
+Truth: the traces of the batch; counts by hand.
 """
 
 import numpy as np

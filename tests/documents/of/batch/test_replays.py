@@ -1,7 +1,6 @@
 """Replay commands on the page of a batch.
 
-Truth: hand-written outcomes with known worst trials; and the command line itself, which must fly the trial that the
-batch flew.
+Truth: hand-written outcomes with known worst trials; and the command line, which must reproduce the trial of the batch.
 """
 
 import json

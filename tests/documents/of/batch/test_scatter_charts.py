@@ -1,6 +1,6 @@
-"""Charts of trials over two metrics, and over the inputs that tell most about success.
+"""Charts of trials over two metrics, and over the inputs that explain most about success.
 
-Truth: the trials of batches written by hand.
+Truth: the trials of hand-written batches.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""A metric over another on the page of a batch, and the number of trials with each status.
+"""Scatter plots of two metrics on the page of a batch, and the number of trials with each status.
 
-Truth: hand-written outcomes, whose marks are counted in the figure and whose ticks_at follow from its ticks.
+Truth: hand-written outcomes, whose marks are counted in the figure, and the positions of its ticks.
 """
 
 import contextlib

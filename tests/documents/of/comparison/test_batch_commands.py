@@ -1,4 +1,4 @@
-"""The commands of compared batches: from their manifests, they write the same trials; the figures' common caption.
+"""Commands of compared batches, from their manifests, write the same trials; common caption of figures.
 
 Truth: summaries of a batch and of its command on the page; the caption of the batch's page.
 """

@@ -1,6 +1,6 @@
-"""The comparison's page in a real browser, wide and narrow: it loads, paints, and nothing runs out of it.
+"""Page of a comparison in a real browser, wide and narrow: it loads, renders, and nothing overflows.
 
-Truth: the page's own figures and colours; the widths that the browser lays out.
+Truth: the figures and colours of the page; the widths in the layout of the browser.
 """
 
 import numpy as np

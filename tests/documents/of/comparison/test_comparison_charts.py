@@ -1,4 +1,4 @@
-"""Charts of the comparison: bands over time, ends about the target, paths.
+"""Charts of a comparison: bands over time, final positions about the target, paths.
 
 Truth: percentiles and covariances by numpy, the chi-square distribution by scipy; the same bands drawn by matplotlib.
 """

@@ -1,7 +1,7 @@
-"""Content of the comparison's figures: bands over time, paths, ellipses, and quantities of signals.
+"""Content of a comparison's figures: bands over time, paths, ellipses, and quantities of signals.
 
 Truth: percentiles, norms and projections computed here with numpy from the traces; properties of ellipses (points of
-the k-sigma ellipse are k away in Mahalanobis' distance, and hold the share that they should).
+the k-sigma ellipse have the Mahalanobis distance k, and the ellipse contains the expected share of points).
 """
 
 from dataclasses import replace

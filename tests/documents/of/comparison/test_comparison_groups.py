@@ -1,6 +1,6 @@
-"""Trials by group on the comparison's page, and which batch says how to group them.
+"""Trials by group on the page of a comparison, and the batch that defines the groups.
 
-Truth: the trials filtered here from the parquet files, two cases in turn.
+Truth: the trials filtered here from the parquet files, for two cases.
 """
 
 import numpy as np

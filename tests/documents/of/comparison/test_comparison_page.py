@@ -1,4 +1,4 @@
-"""The comparison's page as a whole: its sections and figures, colours, several folders, extreme batches, JSON.
+"""Page of a comparison: sections and figures, colours, several folders, extreme batches, JSON.
 
 Truth: hand-written batches; the numbers of the JSON document.
 """

@@ -1,4 +1,4 @@
-"""Pairs of variants on the comparison's page: sentences on differences, tables of rates and metrics.
+"""Pairs of variants on the page of a comparison: sentences on differences, tables of rates and metrics.
 
 Truth: the same numbers computed here with numpy and scipy from the parquet files.
 """

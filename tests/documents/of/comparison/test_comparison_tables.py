@@ -1,4 +1,4 @@
-"""Tables of the comparison's page: verdicts, rates, metrics, ends, errors over sigma.
+"""Tables on the page of a comparison: verdicts, rates, metrics, ends, errors over sigma.
 
 Truth: the same numbers computed here with numpy and scipy from the parquet files.
 """

@@ -1,6 +1,6 @@
-"""Statements of the comparison's page on what batches have not recorded, or not of the same trials.
+"""Statements on the page of a comparison about data that batches did not record, or not for the same trials.
 
-Truth: hand-written batches without some of their record.
+Truth: hand-written batches with incomplete records.
 """
 
 import pytest

@@ -1,6 +1,6 @@
-"""The names of axes on a page of a run: in legends, titles and tables, with scripts and without.
+"""Names of axes on the page of a run: in legends, titles and tables, with and without scripts.
 
-Truth: the names as declared, and which of its signals has which.
+Truth: the declared names, and the signal of each name.
 """
 
 from __future__ import annotations

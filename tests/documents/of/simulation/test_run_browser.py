@@ -1,6 +1,6 @@
-"""The page of a run with figures that its system asks for, in a real browser.
+"""Page of a run with figures declared by its system, in a real browser.
 
-Truth: how many figures its source has, and what a screen of a width can show.
+Truth: the number of figures in its source, and the content that fits a screen.
 """
 
 import numpy as np

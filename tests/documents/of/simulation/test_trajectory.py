@@ -1,6 +1,6 @@
-"""Views of trajectories: their scales, the times along a path, the figure of a notebook.
+"""Views of trajectories: scales, times along a path, figure of a notebook.
 
-Truth: a circle and a straight line, whose lengths and instants are known; rectangles of texts.
+Truth: a circle and a straight line with known lengths and instants; rectangles of texts.
 """
 
 from itertools import combinations

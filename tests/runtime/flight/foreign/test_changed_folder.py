@@ -1,6 +1,6 @@
-"""An FMU that changes the process's working folder: relative paths stay where the command began.
+"""FMU that changes the working folder of the process: relative paths still refer to the command's folder.
 
-Truth: the folders, looked into; the closed form of the odd FMU, y(1 s) = gain u + 2 with u = 0.5.
+Truth: the contents of the folders; the closed form of the odd FMU, y(1 s) = gain u + 2 with u = 0.5.
 """
 
 import json

@@ -1,6 +1,6 @@
-"""FMUs that ask for the end of the simulation, as Stair of the Reference FMUs does: a good end, at a time of theirs.
+"""FMUs that request the end of the simulation, as Stair of the Reference FMUs: a regular end, at the FMU's time.
 
-Truth: fmpy's simulate_fmu, to the last bit; pencil and paper for what is connected.
+Truth: FMPy's simulate_fmu, to the last bit; results by hand for connected components.
 """
 
 import fmpy

@@ -1,7 +1,7 @@
-"""FMUs that are not ours from flight to flight: tolerance, terminate, reset, and one instance only.
+"""Foreign FMUs over several simulations: tolerance, terminate, reset, and a single instance.
 
 Truth: the closed form of the odd FMU, y = t (gain u + 2) with u = 0.5; the letters that it writes for each call, with !
-before one that FMI 2.0's state machine forbids; fmpy's simulate_fmu.
+before a call that FMI 2.0's state machine forbids; FMPy's simulate_fmu.
 """
 
 import fmpy

@@ -1,6 +1,6 @@
-"""Parameters of FMUs that are not ours: what is set is what flies, or the flight says by name what is not.
+"""Parameters of foreign FMUs: set values take effect, or the simulation names values that do not.
 
-Truth: the closed form of the odd FMU, y = t (gain u + count + mode + 10 on) with u = 0.5; fmpy's simulate_fmu.
+Truth: the closed form of the odd FMU, y = t (gain u + count + mode + 10 on) with u = 0.5; FMPy's simulate_fmu.
 """
 
 import warnings

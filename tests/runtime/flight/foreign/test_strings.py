@@ -1,6 +1,6 @@
-"""Strings over connections: they arrive as Reals would, whatever their FMU does with its memory afterwards.
+"""Strings over connections: they are transferred like Reals, whatever their FMU does with its memory afterwards.
 
-Truth: pencil and paper on FMUs in Python of which one counts its steps, and one repeats its input.
+Truth: results by hand for two Python FMUs: one counts its steps, and one repeats its input.
 """
 
 import re

@@ -1,6 +1,6 @@
-"""Documents converted to SSP 2.0: valid by its schemas, of the same elements when they are flattened, and smaller.
+"""Documents converted to SSP 2.0: valid by its schemas, smaller, and with the same elements when flattened.
 
-Truth: the description before it was converted; the schemas of SSP 2.0; what is drawn is known element by element.
+Truth: the description before conversion; the schemas of SSP 2.0; generated documents known element by element.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Our systems as SSP 2.0: valid, smaller, and the same run to the last bit.
+"""Shipped systems as SSP 2.0: valid, smaller, and equal simulations to the last bit.
 
 Truth: the systems as SSP 1.0; the schemas of SSP 2.0; the counts of elements by their names.
 """

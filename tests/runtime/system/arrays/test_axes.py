@@ -1,7 +1,7 @@
-"""The names of axes that an SSD declares: which elements have them, what is refused, and that nothing flies otherwise.
+"""Names of axes declared in an SSD: elements with named axes, refusals, and unchanged simulations.
 
-Truth: the declaration as written, the table of frames in the conventions, the frames that blocks declare, and the
-number of the line on which a wrong element begins.
+Truth: the declaration as written, the table of frames in the conventions, the frames declared by blocks, and the line
+number of a wrong element.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Arrays connected: wholes, elements and rows, between components, through systems and dictionaries.
+"""Connections of arrays, elements and rows, between components, through systems and dictionaries.
 
 Truth: the closed forms of the FMUs; the rules of SSP 2.0 (indices from 1, arrays of one shape).
 """

@@ -1,6 +1,6 @@
-"""Connections of vectors' elements that go crosswise while their neighbours go straight: a note of `validate`.
+"""Crossed connections of elements of vectors: a note of `validate`.
 
-Truth: the indices of each system, as they are written here.
+Truth: the indices of each system, written here.
 """
 
 from __future__ import annotations

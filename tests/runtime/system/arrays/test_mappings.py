@@ -1,7 +1,6 @@
-"""Mappings of SSP 2.0: what they have no entry for stays as it is; integers may be mapped to enumerations' numbers.
+"""Mappings of SSP 2.0: values without an entry are unchanged; integers may be mapped to numbers of enumerations.
 
-Truth: the rules of SSP 2.0, Transformation Choice. SSP 1.0 says nothing of values without an entry: there they are
-refused.
+Truth: the rules of SSP 2.0, Transformation Choice. SSP 1.0 does not define values without an entry; these are refused.
 """
 
 import numpy as np

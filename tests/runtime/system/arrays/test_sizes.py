@@ -1,7 +1,7 @@
-"""Sizes that structural parameters give: from parameter sets and options, through systems; what has none.
+"""Sizes of arrays from structural parameters: by parameter sets and options, through systems; missing sizes.
 
-Truth: numbers of elements by hand; which value wins is the rule of SSP 2.0, ParameterBindings. FMUs of FMI 2.0 have no
-structural parameter, so these are systems'.
+Truth: numbers of elements by hand; the precedence of values in SSP 2.0, ParameterBindings. FMUs of FMI 2.0 have no
+structural parameters, so these belong to systems.
 """
 
 from types import SimpleNamespace

@@ -1,6 +1,6 @@
-"""Lists of values: of parameter sets, through prefixes and mappings, into FMUs and systems; what does not fit.
+"""Lists of values from parameter sets, through prefixes and mappings, into FMUs and systems; refusals.
 
-Truth: what the FMUs start with; the rules of SSP 2.0 (row by row, as many values as the dimensions say).
+Truth: the start values of the FMUs; the rules of SSP 2.0 (row by row, as many values as the dimensions require).
 """
 
 import numpy as np

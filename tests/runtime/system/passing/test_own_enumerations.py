@@ -1,6 +1,6 @@
 """Enumerations of Perilune's FMUs in systems: set by item or number, connected with Integers and Reals.
 
-Truth: the numbers that the block's declaration gives to the items, and the flights with these.
+Truth: the numbers of items in the block's declaration, and simulations with these numbers.
 """
 
 from __future__ import annotations

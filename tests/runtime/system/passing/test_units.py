@@ -1,7 +1,7 @@
-"""The rules of units, a test for each row of their table in the reference, by the row's name.
+"""Rules of units: one test for each row of the table in the reference, by the name of the row.
 
 Truth: FMI 2.0 and 3.0 (units, attributes of variables) and SSP 1.0 (connections, mappings): 10 degC are 283.15 K, a
-difference of 10 degC is one of 10 K and of 18 degF; SI's factors; pencil and paper.
+difference of 10 degC is a difference of 10 K and of 18 degF; factors of SI; results by hand.
 """
 
 from __future__ import annotations

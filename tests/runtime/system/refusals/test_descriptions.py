@@ -1,7 +1,7 @@
-"""A system description that is wrong is refused: exit status, one line with file, element and remedy, nothing written.
+"""Invalid system descriptions are refused: exit status, one line with file, element and remedy, nothing written.
 
-Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, which the broken files here
-break in one place each. They go through the command line's `main` in this process.
+Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, each violated in one place
+by a file here. They are read through the command line's `main` in this process.
 """
 
 import pytest

@@ -1,7 +1,7 @@
-"""End of a command that cannot do its work: exit status 1 or 2, and one line that says why.
+"""Commands that cannot complete: exit status 1 or 2, and one line that states the reason.
 
-Truth: the table of refusals in docs/command_line.md. Most go through the command line's `main` in this process, a
-handful through the installed command.
+Truth: the table of refusals in docs/command_line.md. Most tests use the command line's `main` in this process, a few
+the installed command.
 """
 
 import os

@@ -1,7 +1,7 @@
-"""Files that are broken are refused: XML with a DOCTYPE, FMUs, archives that are none or would write elsewhere.
+"""Invalid files are refused: XML with a DOCTYPE, broken FMUs, invalid archives, archives that would write elsewhere.
 
-Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, which the broken files here
-break in one place each. They go through the command line's `main` in this process.
+Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, each violated in one place
+by a file here. They are read through the command line's `main` in this process.
 """
 
 import io

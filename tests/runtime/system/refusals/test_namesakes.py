@@ -1,6 +1,6 @@
-"""Two FMUs whose code has one name in a process, with different content: the second would run the first's.
+"""Two FMUs whose different code has the same name in one process: the second FMU must not run the code of the first.
 
-Truth: each FMU alone gives the number that is written in its own helper.
+Truth: each FMU alone returns the number in its helper module.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Options that do not fit the system are refused, and a time or a step that no one gives is asked for.
+"""Options that do not fit the system are refused, and a missing time or step is requested.
 
-Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, which the broken files here
-break in one place each. They go through the command line's `main` in this process.
+Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, each violated in one place
+by a file here. They are read through the command line's `main` in this process.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Truth of the jet allocation in whole levels: all of them."""
+"""Truth of the jet allocation in discrete levels: enumeration of all levels."""
 
 import itertools
 

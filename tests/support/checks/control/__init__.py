@@ -1,4 +1,4 @@
-"""Truths of regulators: their equations as matrices. Direct outputs follow one row later."""
+"""Truths of control blocks: their equations as matrices. Direct outputs follow one row later."""
 
 from tests.support.checks.control import entry, magnetic, orbital, pointing, relays, robot, thrust_axis
 

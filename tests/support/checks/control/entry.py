@@ -1,4 +1,4 @@
-"""Truths of regulators of an entry capsule."""
+"""Truths of control blocks of an entry capsule."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation

@@ -1,4 +1,4 @@
-"""Truth of the torquers' control: the whole record by numpy, sample by sample of the magnetometer."""
+"""Truth of magnetic control: the complete record by numpy, one magnetometer sample after another."""
 
 import numpy as np
 

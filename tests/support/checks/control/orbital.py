@@ -1,4 +1,4 @@
-"""Truths of regulators of the orbital attitude, with the axes of `orbital_motion`: turns by scipy, linear algebra."""
+"""Truths of orbital attitude control, in the axes of `orbital_motion`: rotations by scipy, linear algebra."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Truths of regulators of a free-flying robot: the paper's law in matrices, its lead by scipy."""
+"""Truths of control blocks of a free-flying robot: the paper's law in matrices, its lead by scipy."""
 
 import numpy as np
 from scipy import signal

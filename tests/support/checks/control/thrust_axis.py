@@ -1,4 +1,4 @@
-"""Truth of the control of a thrust axis: rotation vectors by scipy, the turn of the command by a complex step."""
+"""Truth of the control of a thrust axis: rotation vectors by scipy, the rate of the command by a complex step."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation

@@ -1,4 +1,4 @@
-"""Truths of guidance, a module per family."""
+"""Truths of guidance, one module per family."""
 
 from tests.support.checks.guidance import (
     analytic,

@@ -1,4 +1,4 @@
-"""Truths of the two analytic guidances: the thrust linear in time by linear equations, times by polynomial roots."""
+"""Truths of the two analytic guidances: thrust linear in time by linear equations, times to go by polynomial roots."""
 
 import numpy as np
 

@@ -1,6 +1,6 @@
-"""Truths of the guidances of method A*: times by polynomial roots or the published formula, thrust linear in time.
+"""Truths of guidance by method A*: times by polynomial roots or the published formula, thrust linear in time.
 
-Taken over from the method: the root that Newton's method reaches is the nearest to its start, 2 R/V or the last root.
+Adopted from the method: Newton's method reaches the root nearest to its start, 2 R/V or the last root.
 """
 
 import numpy as np

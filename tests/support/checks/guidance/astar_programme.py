@@ -1,7 +1,7 @@
-"""The programme of method A*: lateral and vertical thrust linear in time, the forward component completes it.
+"""Thrust programme of method A*: lateral and vertical components linear in time, completed by the forward component.
 
-Taken over from the method: an arcsine of more than 1 is one of 1, whose cosine in doubles, 6e-17, divides the forward
-rate.
+Adopted from the method: the argument of an arcsine is limited to 1, and the cosine of the result in doubles, 6e-17,
+divides the forward rate.
 """
 
 import numpy as np

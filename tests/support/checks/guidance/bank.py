@@ -1,4 +1,4 @@
-"""Truth of the programme of bank: closed forms."""
+"""Truth of the bank programme: closed forms."""
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline

@@ -1,6 +1,6 @@
-"""The time-to-go of the guidances that have one for every start, from polynomials by numpy.
+"""Time to go of the guidances with a solution for every start, from polynomials by numpy.
 
-Taken over from the block: when a flight of least effort goes over to braking, and when it is up.
+Adopted from the block: conditions of the change from least effort to braking, and of the end.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Truth of convex guidance: Clarabel's plans in another formulation, and the feedback that follows them.
 
-Taken over from the block: the first bracket of times, its bisection and the slack of 2 %, and the gains and limits of
-the feedback.
+Adopted from the block: the first bracket of times, its bisection and the slack of 2 %, and the gains and limits of the
+feedback.
 """
 
 from dataclasses import replace

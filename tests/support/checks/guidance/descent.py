@@ -1,7 +1,7 @@
-"""Truths of the descent laws that know the engine: profiles by linear equations, times by searches over numpy arrays.
+"""Truths of descent laws with engine limits: profiles by linear equations, times by searches over numpy arrays.
 
-Masses are 1 kg, so that thrusts are accelerations. Taken over from the blocks: when a time is chosen, checked and
-counted down, and the steps of the search.
+Masses are 1 kg, so that thrusts are accelerations. Adopted from the blocks: the conditions under which a time is
+chosen, checked and counted down, and the steps of the search.
 """
 
 import numpy as np

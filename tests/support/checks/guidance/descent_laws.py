@@ -1,4 +1,4 @@
-"""Checks of the descent laws: braking, a start near the target, one at rest there, and starts beyond the limits."""
+"""Checks of descent laws: braking, a start near the target, at rest at the target, and beyond the limits."""
 
 from dataclasses import replace
 

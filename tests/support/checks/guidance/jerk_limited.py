@@ -1,7 +1,7 @@
-"""Truths of turns within limits of rate, acceleration and jerk: constant jerks integrated by scipy, rotations by scipy.
+"""Truths of slews within limits of rate, acceleration and jerk: constant jerks integrated by scipy, rotations by scipy.
 
-Durations are those of seven pieces by hand: full jerk, full acceleration, and their mirror, with a coast between two
-such ramps. Taken over from the block: three elementary rotations, and where it is before and after them.
+Durations are from seven segments by hand: full jerk, full acceleration, and their mirror image, with a coast between
+two such ramps. Adopted from the block: three elementary rotations, and the attitude before and after them.
 """
 
 import numpy as np

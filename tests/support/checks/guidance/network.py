@@ -1,4 +1,4 @@
-"""Truth of the published network operator in space: the law written out, turned about by rotations."""
+"""Truth of the published network operator in space: the law written out, rotated into space."""
 
 import numpy as np
 from scipy.optimize import brentq

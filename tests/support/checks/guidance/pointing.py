@@ -1,4 +1,4 @@
-"""Truth of the attitude to follow on an orbit: axes by numpy, rotations by scipy, J2 from its potential."""
+"""Truth of the reference attitude on an orbit: axes by numpy, rotations by scipy, J2 from its potential."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation

@@ -1,6 +1,7 @@
-"""Truth of the plan of an approach: polynomials fixed by their ends, rotations by scipy.
+"""Truth of the rendezvous plan: polynomials determined by their ends, rotations by scipy.
 
-Taken over from the block: what is commanded at a tick acts from `DELAY` of its period later, the first from the start.
+Adopted from the block: a command acts after a delay of `DELAY` times the sample period, the first command from the
+start.
 """
 
 import numpy as np

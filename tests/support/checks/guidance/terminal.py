@@ -1,8 +1,8 @@
-"""Shared code of the truths of terminal guidances: samples of flights, and the slot as a whole record.
+"""Shared code of the truths of terminal guidances: samples of trajectories, and the record of all outputs.
 
-A law is a function of what one sample sees and of the samples before; which command is in force, what time is left and
-where a flight ends is read off the record of its solutions. Taken over from the slot: the statuses, and what outputs
-keep while there is no command.
+A law is a function of one sample and of the samples before; the active command, the remaining time and the end of a
+flight follow from the record of its solutions. Adopted from the interface: the statuses, and the outputs without a
+command.
 """
 
 from dataclasses import dataclass

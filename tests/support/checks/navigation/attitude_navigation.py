@@ -1,4 +1,4 @@
-"""Truths of attitude by star tracker and gyros: filterpy with all axes at once, rotations by scipy."""
+"""Truths of attitude navigation by star tracker and gyros: filterpy with all axes at once, rotations by scipy."""
 
 import numpy as np
 from filterpy.kalman import KalmanFilter

@@ -1,4 +1,4 @@
-"""Kalman filters of three like axes at once, by filterpy, and the rows of the checks that use them."""
+"""Kalman filters of three equal axes at once, by filterpy, and the rows of the checks that use them."""
 
 import numpy as np
 from filterpy.kalman import KalmanFilter

@@ -1,4 +1,4 @@
-"""Kalman navigation by numpy: matrices of fifteen states, a sensor's scalars at once.
+"""Kalman navigation by numpy: matrices of fifteen states, with all scalars of a sensor at once.
 
 Equations: docs/systems/lunar_navigation.md.
 """

@@ -1,4 +1,4 @@
-"""A flight over the Moon that truths of navigation share, and its dead reckoning."""
+"""Trajectory over the Moon, shared by truths of navigation, and its dead reckoning."""
 
 import numpy as np
 

@@ -1,7 +1,7 @@
 """Truths of the observers of the orbital attitude: direction cosines by DOP853 between samples, gains by numpy.
 
-A full observer's gain is that of docs/systems/orbital_attitude.md; its poles are compared with the requested ones. The
-derivatives of the motion are complex steps of the nonlinear equations.
+The gain of a full-order observer is from docs/systems/orbital_attitude.md; its poles are compared with the requested
+poles. The derivatives of the motion are complex steps of the nonlinear equations.
 """
 
 import itertools

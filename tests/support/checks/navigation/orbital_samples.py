@@ -1,4 +1,4 @@
-"""Inputs of observers of the orbital attitude: samples of a body that turns, and the pulses of its jets."""
+"""Inputs of observers of the orbital attitude: samples of a rotating body, and the pulses of its jets."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Truth of a lander whose thrust axis is turned: DOP853 from event to event."""
+"""Truth of a lander with a rotating thrust axis: DOP853 from event to event."""
 
 import numpy as np
 from scipy.integrate import solve_ivp

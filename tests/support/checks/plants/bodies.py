@@ -1,4 +1,4 @@
-"""Truths of bodies that turn: scipy's rotations, and DOP853 on independently written equations."""
+"""Truths of rotating bodies: scipy's rotations, and DOP853 on independently written equations."""
 
 import itertools
 import math

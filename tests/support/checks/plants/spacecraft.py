@@ -1,4 +1,4 @@
-"""Truth of a spacecraft: accelerations of body, wheels and modes from one linear system, under all its surroundings."""
+"""Truth of a spacecraft: accelerations of body, wheels and modes from one linear system, with the full environment."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Checks of sensors that sample: at the start and at every second row, so that outputs stay in between."""
+"""Checks of sampling sensors: samples at the start and at every second row, with held outputs in between."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Truths of sequencing: what a whole record of inputs implies, or the record that makes a flight written beforehand."""
+"""Truths of sequencing: outputs implied by a record of inputs, or inputs that produce a prescribed sequence."""
 
 from tests.support.checks.sequencing import aocs, landing, monitors
 

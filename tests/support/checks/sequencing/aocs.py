@@ -1,4 +1,4 @@
-"""Truth of a satellite's modes: spells counted in samples, over a record whose transitions are written beforehand."""
+"""Truth of a satellite's modes: durations counted in samples, for a record with prescribed transitions."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation

@@ -1,4 +1,4 @@
-"""Truth of the landing's sequencer: a flight written beforehand, which `landing_record` makes come about."""
+"""Truth of the landing sequencer: a prescribed sequence, produced by the inputs of `landing_record`."""
 
 import numpy as np
 

@@ -1,7 +1,7 @@
-"""Inputs of a landing's sequencer, cycle by cycle, that produce the flight of `landing`.
+"""Inputs of the landing sequencer, cycle by cycle, that produce the sequence of `landing`.
 
-Values are just on either side of their thresholds. Rows between two cycles have the inputs of another cycle, and both
-contacts: they must not count.
+Values are just above or below their thresholds. Rows between two cycles contain the inputs of another cycle, and both
+contacts, which must have no effect.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Truths of the command switch and of monitors: what a whole record implies. Direct outputs follow one row later."""
+"""Truths of the command switch and of monitors, from complete records. Direct outputs follow one row later."""
 
 import numpy as np
 

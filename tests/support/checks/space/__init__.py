@@ -1,1 +1,1 @@
-"""Surroundings of a spacecraft in numpy, from the published series and tables, for the truths of several blocks."""
+"""Space environment in numpy, from the published series and tables, for the truths of several blocks."""

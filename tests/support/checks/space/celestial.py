@@ -1,4 +1,4 @@
-"""Sun and Moon from the Earth's centre, and the Earth's axes, as tables of terms.
+"""Positions of Sun and Moon from the Earth's centre, and the Earth's axes, as tables of terms.
 
 Frame: axes of the GCRS. Times are TT in seconds since J2000.0. Sources: Meeus 1998, chapter 25; Simon et al. 1994;
 Montenbruck and Gill 2000, section 3.3.2; Capitaine, Wallace and Chapront 2003; Wallace and Capitaine 2008.

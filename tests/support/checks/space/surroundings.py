@@ -1,4 +1,4 @@
-"""Air, light and flat plates.
+"""Atmosphere, eclipses and forces on flat plates.
 
 Sources: Montenbruck and Gill 2000, sections 3.4 and 3.5, table 3.8; the ellipsoid of WGS 84.
 """

@@ -1,4 +1,4 @@
-"""The figures of a page with scripts and without, in one browser: what pictures say, what is drawn in their place."""
+"""Figures of a page with and without scripts, in one browser: content of pictures, and of their replacements."""
 
 from __future__ import annotations
 

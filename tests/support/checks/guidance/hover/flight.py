@@ -1,4 +1,4 @@
-"""The flight of the check of hover guidance: a dozen plans, samples that come late, rows that no sample sees."""
+"""Inputs of the check of hover guidance: a dozen plans, late samples, rows between samples."""
 
 from types import SimpleNamespace
 

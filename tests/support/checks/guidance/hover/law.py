@@ -1,7 +1,7 @@
-"""The law that tracks a plan: projections by matrices, the engine's lag by the matrix exponential.
+"""Tracking law of a plan: projections by matrices, the engine's lag by the matrix exponential.
 
-Taken over from the block: its gains and limits, what outputs keep while idle, and that thrust is estimated at the mean
-mass of a cycle, before planning.
+Adopted from the block: gains and limits, outputs in idle mode, and estimation of thrust at the mean mass of a cycle,
+before planning.
 """
 
 import numpy as np

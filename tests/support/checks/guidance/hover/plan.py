@@ -1,4 +1,4 @@
-"""Plans to a hover in space: their computation, and outputs once they are over."""
+"""Plans to a hover in space: their computation, and outputs after their end."""
 
 from dataclasses import dataclass
 

@@ -1,7 +1,8 @@
-"""The programme from hover to hover by root finding on the paper's full equations, integrated by scipy's DOP853.
+"""Programme from hover to hover, by root finding on the paper's full equations, integrated by scipy's DOP853.
 
-Taken over from the block: the ends that its search for least propellant tries, of which the best is the plan's. They
-are 1 s and 2.6 s later than a first one, then those of a golden section of the larger segment of the bracket, to 1 ms.
+Adopted from the block: the end times tried in the search for least propellant, the best of which is used in the plan.
+They are 1 s and 2.6 s after a first end time, then the points of a golden section of the larger segment of the bracket,
+to 1 ms.
 """
 
 import math

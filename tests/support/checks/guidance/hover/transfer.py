@@ -1,7 +1,7 @@
-"""Transfers of degree 7: scipy's polynomial from the derivatives at both ends, which leave no freedom.
+"""Transfers of degree 7: scipy's polynomial, which the derivatives at both ends determine.
 
-Taken over from the block: what a transfer takes by the trapezoidal rule with 41 samples, thrust of a cycle by
-Simpson's rule, the durations that a capture tries, and the price of limits exceeded.
+Adopted from the block: propellant of a transfer by the trapezoidal rule with 41 samples, thrust of a cycle by Simpson's
+rule, the durations tried in a capture, and the penalty for exceeded limits.
 """
 
 import numpy as np

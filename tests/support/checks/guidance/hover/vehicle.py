@@ -1,4 +1,4 @@
-"""The vehicle of the check and the margins of its plans: agile, so that flights are short."""
+"""Vehicle of the check and the margins of its plans, agile for short trajectories."""
 
 import numpy as np
 
