@@ -1,4 +1,4 @@
-"""Trials that crashed, hung or ran out of memory: counted in the text of every result that includes them."""
+"""Trials that crashed, hung or ran out of memory, counted in the text of every result that includes them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .summary import Summary
 
 
 def lost_status(status: str) -> str:
-    """Return ``crashed``, ``hung`` or ``out_of_memory`` if a trial's status begins with it, else ""."""
+    """Return ``crashed``, ``hung`` or ``out_of_memory`` if a trial's status begins with this word, else ""."""
     beginning = status.partition(" (")[0]
     return beginning if beginning in LOST else ""
 
@@ -25,12 +25,12 @@ def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
 
 
 def lost_words(counts: Mapping[str, int]) -> str:
-    """Return such counts as text: "2 crashed, 1 out of memory"; "" if there are none."""
+    """Return such counts as text, such as "2 crashed, 1 out of memory"; "" if there are none."""
     return ", ".join(f"{counts[status]} {status.replace('_', ' ')}" for status in LOST if counts.get(status))
 
 
 def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
-    """Return a line for each variant with such trials, from the counts of its statuses."""
+    """Return a line for each variant with such trials, from the counts of the variant's statuses."""
     words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
     return [
         f"{variant}: {text} of {sum(statuses[variant].values())} trials, counted as failures"
@@ -40,5 +40,5 @@ def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
 
 
 def describe_lost_trials(summary: Summary) -> list[str]:
-    """Return the lines for a summary's variants."""
+    """Return a line for each variant of a summary with lost trials."""
     return lost_lines({variant: entry.statuses for variant, entry in summary.items()})

@@ -1,4 +1,4 @@
-"""Limits that success and requirements impose on single metrics, and the worst trial with respect to them."""
+"""Limits imposed by success and requirements on single metrics, and the worst trial with respect to such limits."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ RISING, FALLING = (ast.Lt, ast.LtE), (ast.Gt, ast.GtE)
 
 @dataclass(frozen=True)
 class MetricLimits:
-    """Least and greatest permitted value of a metric, in its unit; infinite without a limit."""
+    """Least and greatest permitted value of a metric, in the metric's unit; infinite if there is no limit."""
 
     low: float = -math.inf
     high: float = math.inf
 
     @property
     def better(self) -> int:
-        """-1 if less is better, 1 if more is, 0 with limits on both sides."""
+        """-1 if smaller values are better, 1 if larger values are better, 0 with limits on both sides."""
         return (self.low > -math.inf) - (self.high < math.inf)
 
     def excess(self, values: np.ndarray) -> np.ndarray:
-        """Return the distance beyond the nearer limit, negative within both."""
+        """Return the distance beyond the nearer limit, negative for values within both limits."""
         return np.maximum(self.low - values, values - self.high)
 
 
 def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
     """Return the limits on single metrics implied by all expressions, by name.
 
-    Metrics in sums, `or` or `not` have none, since a single one of them decides nothing.
+    Metrics in sums, `or` or `not` have no limits, since a single one of these metrics decides nothing.
     """
     limits: dict[str, MetricLimits] = {}
     for expression in expressions:
@@ -46,7 +46,7 @@ def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
 
 
 def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
-    """Yield name, least and greatest value for comparisons, joined by `and`, of a metric with a number."""
+    """Yield name, least and greatest value from comparisons, joined by `and`, of a metric with a number."""
     if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
         for each in node.values:
             yield from _comparisons(each)
@@ -71,14 +71,14 @@ def _number(node: ast.expr) -> float | None:
 
 
 def worst_row(values: np.ndarray, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
-    """Return the first row with the largest ``excess``, and that excess; nan counts as infinite."""
+    """Return the first row with the largest ``excess``, and this excess; nan counts as infinite."""
     beyond = np.where(np.isfinite(values), excess(values), np.inf)
     row = int(np.argmax(beyond))
     return row, float(beyond[row])
 
 
 def worst_trial(rows: TrialTable, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
-    """Return the first trial with the largest ``excess`` of a metric, and the metric's value there."""
+    """Return the first trial with the largest ``excess`` of a metric, and the value of the metric in it."""
     column, trial, value, largest = f"metric.{metric}", 0, math.nan, -math.inf
     for part in rows.parts("trial", column):
         row, beyond = worst_row(part[column], excess)

@@ -1,4 +1,4 @@
-"""Text for a terminal that is independent of trials: aligned columns, assumptions, faults, numbers."""
+"""Text for a terminal that does not depend on trials: aligned columns, assumptions, faults, numbers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def align_columns(rows: list[list[str]]) -> list[str]:
-    """Return rows of cells as lines, the first column left-aligned, the others right-aligned."""
+    """Return rows of cells as lines, with the first column left-aligned and the others right-aligned."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [
         "  ".join(
@@ -27,11 +27,11 @@ def faults_line(faults: Iterable[object]) -> str:
 
 
 def short(value: float | None) -> str:
-    """Return a number with four significant digits, a dash for None."""
+    """Return a number with four significant digits, or a dash for None."""
     return "-" if value is None else f"{value:.4g}"
 
 
 def ordinal(number: int) -> str:
-    """Return the ordinal of a number: 1st, 2nd, 3rd, 4th, 11th."""
+    """Return the ordinal of a number, such as 1st, 2nd, 3rd, 4th or 11th."""
     teen = number // 10 % 10 == 1
     return f"{number}{'th' if teen else ('th', 'st', 'nd', 'rd', *['th'] * 6)[number % 10]}"

@@ -1,4 +1,4 @@
-"""Trials shown in figures: all of a campaign or, if it is long, the first ones and later failures."""
+"""Trials shown in figures: all trials of a campaign or, if it is long, the first trials and later failures."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import pyarrow
 from ...common.machine.arrow import numpy_of
 from .trials import TrialTable
 
-FIRST = 100_000  # trials of a variant
-FAILURES = 20_000  # later failures
+FIRST = 100_000  # most of the first trials of a variant
+FAILURES = 20_000  # most of the later failures
 
 
 @dataclass(frozen=True)
 class PlottedSample:
-    """Sample for figures: ``dots`` are the first trials of a variant and later failures.
+    """Sample for figures: ``dots`` contains the first trials of a variant and later failures.
 
-    ``trials`` and ``failures`` are the numbers of all trials and failures.
+    ``trials`` and ``failures`` are the numbers of all trials and of all failures.
     """
 
     dots: TrialTable
@@ -33,7 +33,7 @@ class PlottedSample:
 
     @property
     def note(self) -> str:
-        """Note on omitted trials, "" if none are."""
+        """Note on omitted trials; "" if no trials are omitted."""
         if self.trials == len(self.first):
             return ""
         plotted = int(np.count_nonzero(~self.dots.success))
@@ -50,7 +50,7 @@ def select_trials(rows: TrialTable, draws: list[str], metrics: list[str]) -> Plo
         success = numpy_of(table["success"])
         room = min(max(FIRST - trials, 0), len(success))
         failed = room + np.flatnonzero(~success[room:])[: FAILURES - retained]
-        chosen += [table.slice(0, room)] if room else []  # an empty slice would hold the memory of its shard
+        chosen += [table.slice(0, room)] if room else []  # even an empty slice would keep its shard in memory
         chosen += [table.take(pyarrow.array(failed))] if failed.size else []
         trials += len(success)
         failures += int(np.count_nonzero(~success))

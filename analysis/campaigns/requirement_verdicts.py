@@ -21,8 +21,8 @@ FIXED_SIZE, UNTIL_DECIDED = "fixed size", "until decided"
 class ToleranceBound:
     """Tolerance bound ``value`` of a requirement's metric, on its ``side`` ("upper" or "lower"); may be infinite.
 
-    It is the ``rank``-th worst value of the first ``flights`` trials. Value and rank are None with too few trials;
-    ``flights_to_decide`` more would suffice.
+    It is the ``rank``-th worst value of the first ``flights`` trials. With too few trials, value and rank are None, and
+    ``flights_to_decide`` is the number of further trials that are needed.
     """
 
     metric: str
@@ -39,9 +39,10 @@ class RequirementVerdict:
 
     ``text`` is the requirement as declared: a ``share`` of all simulations satisfies it, shown with ``confidence``.
     ``rule`` is `FIXED_SIZE` or `UNTIL_DECIDED`. ``decided_after`` is a number of trials, None if undecided.
-    ``flights_to_decide`` are the numbers of further trials that would meet it with 0, 1 and 2 failures among them, None
-    if decided. ``bound`` is None unless the requirement is on one metric. ``unevaluated`` are the metrics of the
-    requirement that are nan in every trial, None if there are none.
+    ``flights_to_decide`` maps the numbers 0, 1 and 2 of failures in further trials to the number of further trials that
+    would meet the requirement; its values are None if the requirement is decided. ``bound`` is None unless the
+    requirement is on one metric. ``unevaluated`` lists the metrics of the requirement that are nan in every trial; None
+    if there are no such metrics.
     """
 
     text: str
@@ -59,7 +60,7 @@ class RequirementVerdict:
 
 
 def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
-    """Return for each trial whether it satisfies a requirement; a trial with a non-finite metric does not."""
+    """Return True for each trial that satisfies a requirement; a trial with a non-finite metric does not."""
     names = {name: f"metric.{name}" for name in requirement.expression.names} | {SUCCESS: "success"}
     satisfied = []
     for part in trials.parts(*names.values()):
@@ -101,7 +102,7 @@ def requirement_verdict(
 
 
 def _find_unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
-    """Return the metrics of a requirement that are nan in every trial, None if there are none."""
+    """Return the metrics of a requirement that are nan in every trial; None if there are no such metrics."""
     names = sorted(requirement.expression.names - {SUCCESS})
     read = list(trials.parts(*(f"metric.{name}" for name in names)))
     missing = [name for name in names if all(np.isnan(columns[f"metric.{name}"]).all() for columns in read)]
@@ -124,10 +125,11 @@ def _bound(
 
 
 def trials_to_decision(requirements: Sequence[Requirement], trials: Mapping[str, Sequence[np.ndarray]]) -> int | None:
-    """Return the number of trials after which every requirement of every variant is decided, None if one is not.
+    """Return the number of trials after which every requirement is decided for every variant, or None.
 
     ``trials`` contains, by variant and for each requirement, whether the first trials satisfy it, in order and without
-    gaps. The result does not depend on later trials: it is the last interim analysis that any requirement needed.
+    gaps. The result does not depend on later trials: it is the last interim analysis that any requirement needed. None
+    is returned if a requirement is undecided.
     """
     decisions = [
         stopping_rule(requirement.share, requirement.confidence).decision(satisfied)

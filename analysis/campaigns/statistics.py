@@ -1,4 +1,4 @@
-"""Statistics of one metric over trials: mean, standard deviation, root mean square, extremes and quantiles."""
+"""Statistics of a metric over trials: mean, standard deviation, root mean square, extremes and quantiles."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from .verdicts.order_statistics import Blocks, column_quantiles
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # in the order of tables
-IN_MEMORY = 2**20  # values of a column that are read once, 8 MB
+IN_MEMORY = 2**20  # most values of a column that is read into memory at once, 8 MB
 
 
 @dataclass(frozen=True)
 class MetricStatistics:
-    """Statistics of one metric over trials, in ``unit``.
+    """Statistics of a metric over trials, in ``unit``.
 
-    ``mean``, sample standard deviation ``std``, ``max``, ``min`` and ``rms`` are of the ``count`` finite values. The
-    quantiles ``p5`` to ``p99`` include infinite values but not nan; each is the value of a trial. Statistics are None
-    with too few values: fewer than two for ``std``, none for the others.
+    ``mean``, sample standard deviation ``std``, ``max``, ``min`` and ``rms`` are computed from the ``count`` finite
+    values. The quantiles ``p5`` to ``p99`` include infinite values but not nan; each is the value of a trial.
+    Statistics are None if there are too few values: fewer than two for ``std``, none for the others.
     """
 
     count: int
@@ -43,7 +43,7 @@ class MetricStatistics:
 
 
 def statistics(column: Blocks, unit: str) -> MetricStatistics:
-    """Return the statistics of a column over trials, in bounded memory, with sums rounded only once."""
+    """Return the statistics of a column over trials, in bounded memory, with sums that are rounded only once."""
     column = _read_once(column)
     count, known, minimum, maximum = 0, 0, math.inf, -math.inf
     for values in column():
@@ -89,7 +89,7 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
 
 
 def quantile(column: Blocks, fraction: float) -> float:
-    """Return the smallest value of a column that a ``fraction`` of all does not exceed, nan if it is empty.
+    """Return the smallest value that a ``fraction`` of all values of a column does not exceed; nan for an empty column.
 
     The result is exact, and memory is bounded. Raises ValueError unless 0 <= fraction <= 1.
     """

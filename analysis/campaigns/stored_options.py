@@ -1,4 +1,4 @@
-"""System options in a campaign's manifest, without those that belong to the executing user."""
+"""System options in a campaign's manifest, without options that belong to the executing user."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STORED = {name: each for name, each in options_of(SystemKeywords).items() if nam
 
 
 def _in_json(annotation: object) -> Any:
-    """Return the type of an option in JSON, where paths are text."""
+    """Return the type of an option in JSON, in which paths are texts."""
     types: list[Any] = []
     for member in members_of(annotation):
         origin, inner = get_origin(member), tuple(map(_in_json, get_args(member)))
@@ -39,16 +39,16 @@ StoredOptions = msgspec.defstruct(
 def store_options(options: SystemOptions) -> dict[str, Any]:
     """Return the options of a campaign as JSON."""
     stored = {name: setting for name, setting in options.by_name.items() if name in STORED}
-    # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
+    # Native FMUs (the default) and their compiled steps have the same bits: a resumed campaign may change between them.
     stored["flavour"] = "python" if options.chosen["flavour"] == "python" else None
-    stored["open_inputs"] = options.chosen["open_inputs"] or REFUSE  # as in folders from before None was permitted
+    stored["open_inputs"] = options.chosen["open_inputs"] or REFUSE  # as in folders written before None was permitted
     return stored
 
 
 def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fmu: bool) -> SystemOptions:
     """Return the options in the manifest ``file``, with their types checked; ``of_fmu`` for a stand-alone FMU.
 
-    Raises InputError, with the ``remedy``.
+    Raises InputError with the ``remedy``.
     """
     unknown = sorted(set(stored) - {*STORED})
     if unknown:
@@ -63,5 +63,5 @@ def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fm
     if of_fmu and options.chosen["open_inputs"] == REFUSE:
         return options.replace(
             open_inputs=None
-        )  # invalid options of a stand-alone FMU were rejected before this was written
+        )  # other invalid options of a stand-alone FMU were rejected before the manifest was written
     return options

@@ -34,11 +34,11 @@ class Rate:
 
 @dataclass(frozen=True, kw_only=True)
 class VariantSummary:
-    """Summary of the trials of one variant, or of one of its groups, whose ``value`` is that of the grouping draw.
+    """Summary of the trials of a variant, or of a group of them that share the ``value`` of the grouping draw.
 
-    ``statuses`` counts trials by status. ``metrics`` are statistics over successful trials, ``metrics_all`` over all. A
-    variant has ``groups`` by label, and verdicts on ``requirements`` by name if the campaign declares any; in a
-    comparison it has ``rates`` by name.
+    ``statuses`` counts trials by status. ``metrics`` are statistics over successful trials, ``metrics_all`` over all
+    trials. A variant has ``groups`` by label, and verdicts on ``requirements`` by name if the campaign declares any. In
+    a comparison it has ``rates`` by name.
     """
 
     value: float | None = optional()
@@ -61,9 +61,9 @@ Summary = Mapping[str, VariantSummary]  # by variant
 def success_interval(successes: int, trials: int, confidence: float = 0.95) -> Interval:
     """Return the interval (low, high) of the probability of success after ``successes`` in independent ``trials``.
 
-    Clopper and Pearson's exact interval covers the true rate with at least ``confidence``, whatever it is. Wilson's is
-    shorter but covers less than stated near 0 and 1, and guidance is measured by rates near 1. Raises ValueError unless
-    0 <= successes <= trials, trials >= 1.
+    Clopper and Pearson's exact interval covers the true rate, whatever its value, with at least ``confidence``.
+    Wilson's interval is shorter but covers less than stated near 0 and 1, and guidance is assessed by rates near 1.
+    Raises ValueError unless 0 <= successes <= trials, trials >= 1.
     """
     if not (trials >= 1 and 0 <= successes <= trials):
         raise ValueError(f"{successes} successes of {trials} trials")
@@ -74,7 +74,7 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> I
 
 
 def success_rate(yes: np.ndarray) -> Rate:
-    """Return the rate of True among outcomes (booleans [trial], at least one trial)."""
+    """Return the rate of true ``outcomes`` (booleans [trial], at least one trial)."""
     count = int(np.count_nonzero(yes))
     return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
 
@@ -114,7 +114,7 @@ def summarise(
 ) -> Summary:
     """Return the summary of all variants by name; metrics and units are those of the tables' columns.
 
-    Every variant has at least one trial. ``groups`` are those of trials by the values of the draw ``by``. Verdicts are
+    Every variant has at least one trial. ``groups`` are the groups of trials by values of the draw ``by``. Verdicts are
     from `requirement_verdict`.
     """
     summary = {}
@@ -136,7 +136,7 @@ def summarise(
 
 
 class SummaryRow(NamedTuple):
-    """Row of a summary's tables: a variant, or one group of its trials by label."""
+    """Row of a summary's tables: a variant, or a group of its trials by label."""
 
     variant: str
     group: str | None
@@ -155,8 +155,8 @@ def summary_rows(summary: Summary) -> list[SummaryRow]:
 def requirement_values(summary: Summary) -> dict[str, float]:
     """Return every number of a summary under a dotted name, for use in expressions.
 
-    ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high), ``variant.metrics.NAME.mean``,
-    ``variant.groups["LABEL"].success_rate`` and so on; missing numbers are nan.
+    Names are ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high),
+    ``variant.metrics.NAME.mean``, ``variant.groups["LABEL"].success_rate`` and so on; missing numbers are nan.
     """
     values: dict[str, float] = {}
 

@@ -17,7 +17,7 @@ LEFT_OUT = ("rms", "p99", "p5", "min", "std", "p50", "p95")  # omitted in this o
 
 
 def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collection[str]) -> list[str]:
-    """Return the metrics to print: the named ones, or all; by default those needed, or all if none is needed.
+    """Return the metrics to print: the named ones, or all; by default those needed or, if none is needed, all.
 
     Raises InputError for an unknown name.
     """
@@ -32,7 +32,7 @@ def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collectio
 def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> list[str]:
     """Return a line for each metric and row, with statistics over successful trials.
 
-    Metrics with one value in all trials share a line; statistics are omitted if lines would be too long.
+    Metrics with the same value in all trials share a line; statistics are omitted if lines would be too long.
     """
     same = {metric: number for metric in metrics if (number := _common_value(rows, metric)) is not None}
     varying = [metric for metric in metrics if metric not in same]
@@ -46,10 +46,10 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
 
 
 def rate_lines(table: list[list[str]], first: int) -> list[str]:
-    """Return rows of rates as lines; column ``first`` has the number of trials, the next one success.
+    """Return rows of rates as lines; column ``first`` contains the number of trials, the next column success.
 
-    If lines would be longer than `WIDTH`, columns that are equal in all rows become notes, and then the last column,
-    but never success.
+    If lines would be longer than `WIDTH`, columns that are equal in all rows become notes, and if necessary the last
+    column as well, unless it is success.
     """
     columns, notes = list(range(len(table[0]))), []
 
@@ -67,7 +67,7 @@ def rate_lines(table: list[list[str]], first: int) -> list[str]:
 
 
 def _fit_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
-    """Return lines that fit `WIDTH`, and the statistics omitted for it."""
+    """Return lines of at most `WIDTH` columns, and the statistics omitted for this purpose."""
     for count in range(len(LEFT_OUT) + 1):
         left_out = LEFT_OUT[:count]
         columns = [key for key in STATISTICS if key not in left_out]
@@ -90,11 +90,11 @@ def _cells(
 
 
 def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
-    """Return the value that a metric has in all of several successful trials, or None."""
+    """Return the value that a metric has in all successful trials, if there are several, else None."""
     ends, several = set(), False
     for row in rows:
         values, successes = row.entry.metrics[metric], round(row.entry.success_rate * row.entry.trials)
-        if values.count < successes:  # the others are not finite
+        if values.count < successes:  # the other values are not finite
             return None
         several |= successes > 1
         ends |= {values.min, values.max} if successes else set()
@@ -104,7 +104,7 @@ def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
 def summary_text(summary: Summary, group: str | None = None, metrics: Sequence[str] | None = None) -> str:
     """Return a summary for a terminal: success rates, requirements, and metrics of successful trials, also by group.
 
-    ``metrics`` are those to print; None for all.
+    ``metrics`` names the metrics to print; None stands for all.
     """
     rows = summary_rows(summary)
     rates = [[*group_headings(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]

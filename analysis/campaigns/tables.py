@@ -38,13 +38,13 @@ def requirement_lines(summary: Summary) -> list[str]:
 
 
 def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdict]]:
-    """Return variant, name and verdict for every requirement, those of one requirement together."""
+    """Return variant, name and verdict for every requirement, with all variants of a requirement together."""
     names = dict.fromkeys(name for variant in summary.values() for name in variant.requirements)
     return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
 
 
 def bound_text(result: RequirementVerdict, value: str) -> str:
-    """Return the tolerance bound of a requirement as text, with its ``value`` as text. The bound must exist."""
+    """Return the tolerance bound of a requirement, which must exist, as text; ``value`` is the text of its value."""
     bound = result.bound
     assert bound is not None
     level = f"with {100 * result.share:.10g} % probability at {100 * result.confidence:.10g} % confidence"
@@ -79,7 +79,7 @@ def verdict_text(result: RequirementVerdict) -> str:
 
 
 def unevaluated_text(judged: RequirementVerdict) -> str:
-    """Return a note on the metrics of a requirement that no trial has a value of, "" if there are none."""
+    """Return a note on metrics of a requirement that have no value in any trial; "" if there are no such metrics."""
     if not judged.unevaluated:
         return ""
     names, verb = " and ".join(judged.unevaluated), "are" if len(judged.unevaluated) > 1 else "is"

@@ -14,11 +14,11 @@ from .columns import Describe, with_metadata
 from .verdicts.order_statistics import Blocks
 
 Trace = dict[str, np.ndarray]  # signals by name, and ``time`` (s)
-Member = tuple[str, Callable[[np.ndarray], np.ndarray]]  # a column, and which of its entries are in a group
+Member = tuple[str, Callable[[np.ndarray], np.ndarray]]  # a column, and a function: True for entries in a group
 
 
 class TrialTable:
-    """Trials of one variant, in order of number, with an entry per trial in every column.
+    """Trials of one variant, in order of number, with an entry for each trial in every column.
 
     Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``message`` (why the trial failed, else
     empty), ``end_time`` (s), ``draw.NAME``, ``final.NAME``, ``metric.NAME``.
@@ -52,7 +52,7 @@ class TrialTable:
 
     @property
     def schema(self) -> pyarrow.Schema:
-        """Columns in order, with metadata of those that are described: kind, meaning and unit."""
+        """Columns in order; described columns have metadata: kind, meaning and unit."""
         schema = self._schema.remove_metadata()
         return schema if self._describe is None else with_metadata(schema, self._describe)
 
@@ -72,13 +72,13 @@ class TrialTable:
         return trials
 
     def _like(self, table: pyarrow.Table, traces: Mapping[int, Trace] | None = None) -> TrialTable:
-        """Return another table with the same descriptions of columns."""
+        """Return another table with this table's descriptions of columns."""
         trials = TrialTable(table, traces)
         trials._describe = self._describe
         return trials
 
     def units(self, prefix: str) -> dict[str, str]:
-        """Return the units of columns whose names have a prefix, by the rest of the name; "1" for those without."""
+        """Return the units of columns whose names begin with a prefix, by the remaining name; "1" if undeclared."""
         fields = {field.name: field.metadata or {} for field in self.schema if field.name.startswith(prefix)}
         return {name.removeprefix(prefix): about.get(b"unit", b"1").decode() for name, about in fields.items()}
 
@@ -90,7 +90,7 @@ class TrialTable:
         yield self._table.select(names)
 
     def traced(self) -> list[int]:
-        """Return the trials with a trace, in order. In a folder these may be traces of another batch."""
+        """Return the trials with a trace, in order. In a folder they may be traces of another batch."""
         return sorted(self._traces)
 
     def trace(self, trial: int, names: Collection[str] | None = None) -> Trace | None:
@@ -132,7 +132,7 @@ class TrialTable:
         return {name: np.concatenate([values, *(part[name] for part in others)]) for name, values in first.items()}
 
     def in_memory(self, names: Sequence[str], most: int) -> TrialTable:
-        """Return a table with these columns in memory, or this table if they have more than ``most`` numbers in all."""
+        """Return a table with these columns in memory, or this table if they have more than ``most`` numbers."""
         tables: list[pyarrow.Table] = []
         size = 0
         for table in self.tables(names):
@@ -166,7 +166,7 @@ class TrialTable:
 
     @property
     def success(self) -> np.ndarray:
-        """Success of each trial (trials,)."""
+        """True for each successful trial (trials,)."""
         return np.asarray(self.column("success"), dtype=bool)
 
     @property
@@ -176,7 +176,7 @@ class TrialTable:
 
     @property
     def messages(self) -> dict[int, str]:
-        """Reasons why trials failed, by trial."""
+        """Reasons why trials failed, a text for each trial."""
         columns = self._columns(["trial", "message"])
         numbers, texts = columns.values()
         return {int(numbers[row]): texts[row] for row in np.flatnonzero(texts != "")}

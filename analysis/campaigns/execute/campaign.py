@@ -1,4 +1,4 @@
-"""Campaign that is ready for simulation: its plan, systems and manifest, in a folder if it has one."""
+"""Campaign that is ready for simulation: its plan, systems and manifest, and its folder if it has one."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ from .workers import in_threads, needs_children, worker_count
 class LoadedCampaign:
     """Campaign ready for simulation, with every file read and stored in its ``folder`` (absolute), if it has one.
 
-    ``plan`` is the user's plan, ``stored_plan`` the same plan with the files stored in the folder; ``user_folder`` is
-    the folder as the user names it.
+    ``plan`` is the user's plan, and ``stored_plan`` the same plan with the files stored in the folder. ``user_folder``
+    is the folder's path as stated by the user.
     """
 
     plan: BatchPlan
@@ -49,7 +49,7 @@ class LoadedCampaign:
     user_folder: Path | None = None
 
     def of_first(self, trials: int) -> LoadedCampaign:
-        """Return the campaign reduced to its first trials, which must end with a shard; its folder is reduced, too."""
+        """Return the campaign reduced to its first trials, which must end with a shard; reduce its folder, too."""
         if trials == self.manifest.trials:
             return self
         plan = self.plan.of_first(trials)
@@ -59,7 +59,7 @@ class LoadedCampaign:
 
     @property
     def provenance(self) -> CampaignProvenance:
-        """Inputs that determine its numbers, other than the trials themselves."""
+        """Inputs that determine the campaign's numbers, other than the trials themselves."""
         is_earlier = self.manifest.identities is None
         entries = provenance(self.stored_plan if is_earlier else self.plan, self.systems)
         entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
@@ -71,7 +71,7 @@ class LoadedCampaign:
 
     @cached_property
     def stored(self) -> CampaignFolder | None:
-        """Reader of its folder, None if there is none."""
+        """Reader of the campaign's folder, or None if it has none."""
         return None if self.folder is None else CampaignFolder(self.folder, self.provenance)
 
     def store(self) -> ShardStore:
@@ -84,7 +84,7 @@ class LoadedCampaign:
         return self.store().rows(self.numbering, range(shard, shard + 1))
 
     def has(self, shard: int) -> bool:
-        """Return True if a shard is stored. Raises InputError for a damaged one."""
+        """Return True if a shard is stored. Raises InputError for a damaged shard."""
         return self.stored is not None and self.stored.has(shard, self.numbering.of(shard))
 
     def missing(self) -> list[int]:
@@ -94,7 +94,7 @@ class LoadedCampaign:
     def discard_lost(self, shards: Iterable[int]) -> None:
         """Remove shards with trials that crashed, hung or ran out of memory, so that they are simulated again.
 
-        Raises InputError if another process simulates the campaign.
+        Raises InputError if another process is simulating the campaign.
         """
         if self.folder is None:
             return
@@ -109,7 +109,7 @@ class LoadedCampaign:
         return any(lost_status(status) for column in columns for status in column["status"])
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
-        """Return those of ``shards`` that are not stored.
+        """Check that the campaign can be simulated here, and return the ``shards`` that are not stored yet.
 
         Raises InputError for an invalid shard number, or if the campaign uses another version of the elementary
         functions.
@@ -139,9 +139,9 @@ def open_campaign(
 ) -> LoadedCampaign:
     """Check a plan and store it. Raises InputError before anything is written or simulated.
 
-    With ``output`` a campaign is started in that folder, replacing its content, or resumed there with ``resume``. The
-    files stored in the folder are simulated, even if their originals change. ``elsewhere`` names the executor if it is
-    not this process.
+    With ``output`` a campaign is started in that folder, where it replaces other content, or resumed there with
+    ``resume``. The files stored in the folder are simulated, even if their originals change. ``elsewhere`` names the
+    executor if it is not this process.
     """
     if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
         problem = f"{elsewhere} choose for themselves whether to compile steps"
@@ -159,20 +159,23 @@ def open_campaign(
         manifest = (resume_folder if resume else write_prepared_campaign)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
     flown = replace(flown, options=flown.options.replace(flavour=plan.options.chosen["flavour"]))
-    plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
+    plan = replace(plan, known_draws=flown.draws)  # read from the folder instead of kept in memory
     return LoadedCampaign(plan, flown, systems, manifest, folder, output)
 
 
 def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> LoadedCampaign:
-    """Open the campaign with a manifest in a folder; ``trust`` are permissions of foreign FMUs. Raises InputError."""
+    """Open the campaign in a folder with a manifest. Raises InputError.
+
+    ``trust`` contains the permissions of foreign FMUs.
+    """
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
-    plan = restore(folder, manifest, trust=trust)  # whose draws were checked when the folder was created
+    plan = restore(folder, manifest, trust=trust)  # its draws were checked when the folder was created
     return LoadedCampaign(plan, plan, prepare_variants(plan), manifest, folder, named)
 
 
 def read_folder(folder: Path) -> CampaignFolder:
-    """Return the folder of a campaign that is complete or still running. Raises InputError for other folders."""
+    """Return the folder of a complete or running campaign. Raises InputError for other folders."""
     folder = folder.absolute()
     check_folders(folder)
     if (folder / SUMMARY).is_file():

@@ -19,8 +19,8 @@ from ..definition.plan import TrialSamples
 from ..definition.reductions import largest
 from ..trials import TrialTable
 
-Columns = Mapping[str, np.ndarray]  # an entry for each simulation, named as in tables of trials
-COMPLETE = "complete"  # true for a simulation that completed
+Columns = Mapping[str, np.ndarray]  # columns by name as in tables of trials, with an entry for each simulation
+COMPLETE = "complete"  # name of the column that is true for completed simulations
 
 
 class MetricEvaluator:
@@ -68,7 +68,7 @@ class MetricEvaluator:
         self._keep_signals(group, trials, columns)
 
     def _keep_signals(self, group: FlightGroup, trials: range, columns: Columns) -> None:
-        """Copy the stored time histories of simulations: sampled signals, or everything of some trials."""
+        """Copy the time histories that are stored: sampled signals, or all signals of some trials."""
         record = self._campaign.record
         if record.traces == "none" and record.every is None:
             return
@@ -87,7 +87,7 @@ class MetricEvaluator:
             }
 
     def trials(self) -> TrialTable:
-        """Return the table of the simulations added since the last call, at least one."""
+        """Return the table of the simulations added since the last call; there must be at least one."""
         columns = {name: np.concatenate([group[name] for group in self._groups]) for name in self._groups[0]}
         metrics = self._metrics(columns)
         trials = TrialTable.of(
@@ -106,7 +106,7 @@ class MetricEvaluator:
         return trials
 
     def _metrics(self, columns: Columns) -> dict[str, np.ndarray]:
-        """Return all metrics in the campaign's order (simulations,); nan for a simulation that failed."""
+        """Return all metrics in the campaign's order, (simulations,) each; nan for a simulation that failed."""
         values = {
             **self._names.constants,
             **{name: columns[f"draw.{name}"] for name in self._draws_at_end},
@@ -122,7 +122,7 @@ class MetricEvaluator:
         return metrics
 
     def _success(self, columns: Columns, metrics: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Return for each simulation whether it is a success (simulations,)."""
+        """Return True for each simulation that is a success (simulations,)."""
         complete = columns[COMPLETE]
         return successes(self._campaign.success, metrics, complete.size) & complete
 
@@ -131,9 +131,9 @@ WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
 
 
 def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
-    """Return the status of each simulation, with the worst status of every component that reported other than 0.
+    """Return the status of each simulation, with the worst status of every component other than 0.
 
-    For instance ``finished`` or ``finished (guidance.status 2)``.
+    Examples are ``finished`` and ``finished (guidance.status 2)``.
     """
     texts: list[list[str]] = [[] for _ in group.statuses]
     for name in statuses:
@@ -147,5 +147,5 @@ def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
 
 
 def worst_statuses(text: str) -> dict[str, int]:
-    """Return the worst component statuses in a text of `trial_statuses`, by signal."""
+    """Return the worst component statuses in a text from `trial_statuses`, by signal."""
     return {name: int(value) for name, value in WORST.findall(text)}

@@ -1,4 +1,4 @@
-"""Simulates shards: the trials of each are divided among workers and reassembled."""
+"""Simulation of shards: the trials of each shard are divided among workers and reassembled."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from .workers import FlyerPool
 MOST_IN_THREAD, MOST_IN_PROCESS = (
     500,
     10,
-)  # trials of a task: enough to be worth sending, few enough to distribute or lose
-TASKS = 16  # least number for each worker, so that they end at about the same time
+)  # trials in a task: enough to justify sending it, few enough to distribute or lose
+TASKS = 16  # least number of tasks for each worker, so that all workers end at about the same time
 
 
 def fly_shards(
@@ -22,7 +22,7 @@ def fly_shards(
 ) -> Generator[tuple[int, dict[str, TrialTable]]]:
     """Simulate shards of the pool's plan, in tasks of ``size`` trials.
 
-    Yields each shard's number and trials by variant on completion, in any order of shards.
+    Yields the number of each shard, and its trials by variant, on completion, in any order of shards.
     """
     variants = [variant.name for variant in pool.plan.campaign.variants()]
     owners: dict[int, tuple[int, str]] = {}  # shard and variant of submitted tasks
@@ -46,12 +46,12 @@ def fly_shards(
 
 
 def task_size(trials: int, workers: int, threads: bool) -> int:
-    """Return the number of trials that a worker simulates at a time."""
+    """Return the number of trials that a worker simulates in one task."""
     return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (TASKS * workers)))
 
 
 class ShardAssembler:
-    """Assembles shards from pieces in any order, and returns a shard once all of its trials are present."""
+    """Assembles shards from portions that arrive in any order, and returns a shard once all of its trials are present."""
 
     def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:
         self._numbering = numbering
@@ -59,7 +59,7 @@ class ShardAssembler:
         self._pieces: dict[int, dict[str, list[TrialTable]]] = {}
 
     def add(self, shard: int, variant: str, trials: TrialTable) -> dict[str, TrialTable] | None:
-        """Add trials of a shard; if the shard is complete, return all of its trials by variant, else None."""
+        """Add trials of a shard; return all of its trials by variant if the shard is complete, else None."""
         pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
         pieces[variant].append(trials)
         flown = sum(len(piece) for parts in pieces.values() for piece in parts)

@@ -1,4 +1,4 @@
-"""Simulates trials of a plan in one worker, with one reused simulation for each variant."""
+"""Simulation of a plan's trials in one worker, with one reused simulation for each variant."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ..trials import TrialTable
 from .evaluation import MetricEvaluator
 from .fusing import Fusing
 
-AROUND = 4096  # trials whose draws are read together
+AROUND = 4096  # number of trials whose draws are read together
 
 
 class TrialResult(NamedTuple):
@@ -38,8 +38,8 @@ class TrialResult(NamedTuple):
 class Flyer:
     """Simulations of a plan's variants, for one worker. Not shared between threads.
 
-    With ``in_child`` all run in children, even those that could run in this process. ``trials`` and ``workers`` are as
-    in `Fusing`.
+    With ``in_child`` all simulations run in children, even those that could run in this process. ``trials`` and
+    ``workers`` are as in `Fusing`.
     """
 
     def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
@@ -54,12 +54,12 @@ class Flyer:
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
-        """Return the simulation of a variant, opened at first use."""
+        """Return the simulation of a variant; open it at first use."""
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
                 if prepared.is_alone and not self._in_child and may_load_here(prepared):
-                    self.close()  # other variants may hold the one instance that the process can have
+                    self.close()  # another variant may have the only instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 requested = None if everything else {*names.signals, *names.statuses}
@@ -70,7 +70,7 @@ class Flyer:
                     in_child=self._in_child,
                     varied=names.varied,
                     requested=requested,
-                    additional=names.signals,  # a state of an FMU is not among all that is exchanged
+                    additional=names.signals,  # signals may be states of FMUs, which are not exchanged
                     faults=faults,
                     log=log,
                 )
@@ -78,7 +78,7 @@ class Flyer:
         return self._ready[variant]
 
     def _log_of(self, variant: str) -> Log | None:
-        """Return the log for a variant's FMUs, None if there is no log level."""
+        """Return the log for a variant's FMUs, or None if there is no log level."""
         if self.plan.watch.log is None:
             return None
         self._logs[variant] = Log(self.plan.watch.log)
@@ -108,12 +108,12 @@ class Flyer:
             simulation.interrupt()
 
     def abort(self) -> None:
-        """End a simulation in another thread that has not reached a communication point, if possible."""
+        """End a simulation in another thread that does not reach a communication point, if possible."""
         for simulation, _ in list(self._ready.values()):
             simulation.abort("was interrupted")
 
     def fly(self, variant: str, trials: range) -> TrialTable:
-        """Simulate trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
+        """Simulate trials of a variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         simulation, names = self.simulation(variant)
         evaluator = MetricEvaluator(self.plan.campaign, names)
         size = simulation.group_size if self.plan.watch.timeout is None else 0
@@ -137,7 +137,7 @@ class Flyer:
         return evaluator.trials()
 
     def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
-        """Simulate one of ``trials``, with the next one announced."""
+        """Simulate one of ``trials``, and announce the next one."""
         if trial == trials.start:
             self._announce(variant, trial)
         if trial + 1 in trials:
@@ -147,7 +147,7 @@ class Flyer:
     def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
         """Simulate one trial; the result does not depend on earlier simulations.
 
-        ``overlay`` sets all of the plan's overlaid parameters; without it they keep their values in the variant's last
+        ``overlay`` sets all overlaid parameters of the plan; without it they keep their values from the variant's last
         simulation.
         """
         return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
@@ -155,7 +155,7 @@ class Flyer:
     def replay(self, variant: str, trial: int) -> tuple[FlightResult, TrialResult]:
         """Simulate one trial with every signal recorded, with the same bits as in the batch.
 
-        If an output that the batch does not read is not finite, only signals that the batch reads are recorded.
+        If an output that is not read in the batch is not finite, only signals that the batch reads are recorded.
         """
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
@@ -173,7 +173,7 @@ class Flyer:
     def _fly_recorded(
         self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, requested: set[str] | None
     ) -> FlightResult:
-        """Simulate a trial with these signals recorded, None for all."""
+        """Simulate a trial and record these signals, or all signals for None."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(
             prepared,
@@ -210,12 +210,12 @@ class Flyer:
                         f"trial {trial}: {first}; the failure did not recur in a new process, and its result is used",
                     )
             return flight
-        except StuckError as error:  # its instances are lost: the next trial has new ones
+        except StuckError as error:  # its instances are lost; the next trial uses new ones
             del self._ready[variant]
             return make_empty_flight(simulation, str(error))
 
     def _warn_once(self, variant: str, text: str) -> None:
-        """Warn of problems in a trial of a variant, only the first time."""
+        """Warn of problems in a trial of a variant, but only for the first such trial."""
         if variant not in self._warned:
             self._warned.add(variant)
             warnings.warn(f"{variant}: {text}", stacklevel=2)
@@ -227,10 +227,10 @@ class Flyer:
             simulation.queue_run(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
 
     def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
-        """Return True if a simulation whose process ended is to be repeated in a new one.
+        """Return True if a simulation whose process ended is to be repeated in a new process.
 
-        Its FMU may not be the cause: an earlier simulation may have corrupted the process, or another program killed
-        it.
+        Its FMU may not be the cause: an earlier simulation may have corrupted the process, or another program may have
+        killed it.
         """
         is_lost = flight.status in LOST and not self.halted
         return is_lost and (flight.status == CRASHED or simulation.flights > 1)
@@ -242,7 +242,7 @@ class Flyer:
 
 
 def result_of(trials: TrialTable, row: int) -> TrialResult:
-    """Return the result of one trial, by its row in a table in memory."""
+    """Return the result of a trial, from its row in a table in memory."""
     entries = trials.table.slice(row, 1).to_pylist()[0]
     return TrialResult(
         status=entries["status"],

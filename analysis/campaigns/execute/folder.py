@@ -1,4 +1,4 @@
-"""Folder of a campaign: created, or found and resumed."""
+"""Folder of a campaign: its creation, and its resumption."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def write_prepared_campaign(
     folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan
 ) -> CampaignManifest:
     """Write a campaign's manifest, contents and draws to a folder, and remove trials of other campaigns."""
-    for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
+    for name in (FILE, SUMMARY):  # removed first, so that remains of another campaign are no result any more
         (folder / name).unlink(missing_ok=True)
     clear(folder)
     remove_contents(folder / CONTENTS)
@@ -32,9 +32,9 @@ def write_prepared_campaign(
 def resume_folder(
     folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan
 ) -> CampaignManifest:
-    """Resume a folder that contains this campaign or its first trials. Raises InputError for another campaign."""
+    """Resume a folder that contains this campaign, or its first trials. Raises InputError for another campaign."""
     held = read_manifest(folder)
-    manifest = replace(manifest, shard_size=held.shard_size)  # determined by fewer trials
+    manifest = replace(manifest, shard_size=held.shard_size)  # it was determined from fewer trials
     difference = differences(held, manifest)
     if difference:
         problem = f"holds another campaign: {difference}"
@@ -54,7 +54,7 @@ def resume_folder(
 
 
 def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
-    """Reject a plan whose draws for the first trials differ from the stored ones."""
+    """Reject a plan with draws for the first trials that differ from the stored draws."""
     names = plan.campaign.input_names()
     stored, first = read_draws(folder, held.trials, names), 0
     for part in plan.draw_parts(held.shard_size):
@@ -69,7 +69,7 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
 
 
 def remove_further_trials(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignManifest:
-    """Reduce the folder to the plan's trials, which are fewer: whole shards and their traces."""
+    """Reduce the folder to the plan's trials; remove other complete shards and their traces."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
     for path in (folder / FOLDER).glob("[0-9]*.parquet"):
@@ -85,7 +85,7 @@ def remove_further_trials(folder: Path, manifest: CampaignManifest, plan: BatchP
 
 
 def remove_temporary_files(folder: Path) -> None:
-    """Remove temporary files of killed writers from the folder of a campaign whose shards are all stored."""
+    """Remove temporary files of killed writers from the folder of a campaign with all shards stored."""
     for place in (folder, folder / FOLDER, folder / CONTENTS, *trace_path(folder, "", 0).parent.glob("*/")):
         remove_partial(place)
 

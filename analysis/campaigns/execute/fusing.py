@@ -1,4 +1,4 @@
-"""Decision whether to compile the steps of a batch, from the duration of its trials and the number that remains."""
+"""Decision on compiling the steps of a batch, from the duration of its trials and the number of remaining trials."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import warnings
 from ....common.errors import InputError
 from ...runtime.flight.base_simulation import BaseSimulation
 
-GAIN = 0.1  # share of a trial's time saved, in most shipped systems (benchmarks/one_fmu.py)
-COMPILATION = 0.4  # s, of a component
-MARGIN = 3.0  # how many times over compilation is to pay: a campaign may end early
-_compiling = threading.Lock()  # one worker at a time, while the others go on
+GAIN = 0.1  # fraction of a trial's time that is saved in most shipped systems (benchmarks/one_fmu.py)
+COMPILATION = 0.4  # s, time to compile a component
+MARGIN = 3.0  # least ratio of saved time to compilation time, since a campaign may end early
+_compiling = threading.Lock()  # one worker compiles at a time; the others continue
 
 
 class Fusing:
-    """Compiles the steps of one worker's simulations if it saves time and the user sets no flavour.
+    """Compiles the steps of one worker's simulations if this saves time and the user sets no flavour.
 
     Results have the same bits before and after. ``trials`` is the number of each variant's trials for all ``workers``
-    together; if it is None, as many as have been simulated are expected to follow.
+    together. If it is None, the number of remaining trials is assumed to equal the number of simulated ones.
     """
 
     def __init__(self, flavour: str | None, trials: int | None, workers: int) -> None:
@@ -29,10 +29,10 @@ class Fusing:
         self._decided: set[str] = set()  # variants
 
     def consider(self, variant: str, simulation: BaseSimulation, count: int, seconds: float) -> None:
-        """Compile a variant's steps if it saves enough, where ``count`` of its trials took ``seconds``.
+        """Compile a variant's steps if this saves enough time, after ``count`` of its trials took ``seconds``.
 
-        Not after the first trials, whose duration includes loading the loop. Warns if the compiler rejects the steps;
-        trials are then simulated as before.
+        The first call for a variant is ignored, since its duration includes loading the loop. Warns if the compiler
+        rejects the steps; trials are then simulated as before.
         """
         if not self._is_open or variant in self._decided:
             return
@@ -51,7 +51,7 @@ class Fusing:
                 simulation.fuse()
             except InputError as error:
                 if simulation.recorder.halt[0]:
-                    return  # interrupted: the compiler has been ended
+                    return  # an interruption ended the compiler
                 warnings.warn(f"{variant}: steps are not compiled: {error.problem}", stacklevel=2)
             finally:
                 _compiling.release()

@@ -11,16 +11,16 @@ from ....fmus_src.export.identity import guid_of_module
 from ...runtime.system.fmu import Fmu
 from ..folder.manifest import CampaignManifest
 
-LIMITS = ("call_timeout", "memory")  # options that end trials, and change none
-MOST_DIFFERENCES = 3  # named in one line
+LIMITS = ("call_timeout", "memory")  # options that may end trials but change no results
+MOST_DIFFERENCES = 3  # most differences named in one line
 SCRIPT = "resources/slavemodule.txt"  # file of pythonfmu with the name of the module that an FMU runs
 
 
 def identity_of(fmu: Fmu) -> str:
-    """Return the identity of an FMU: for Perilune's blocks of either flavour, the GUID of the native FMU.
+    """Return the identity of an FMU: for both flavours of Perilune's blocks, the GUID of the native FMU.
 
-    For others it is the SHA-256 of the file, also for Python FMUs whose block is not installed here, or has other
-    sources.
+    For other FMUs it is the SHA-256 of the file, also for Python FMUs with a block that is not installed here or has
+    other sources.
     """
     if not fmu.is_self_contained:
         return fmu.digest
@@ -33,8 +33,8 @@ def identity_of(fmu: Fmu) -> str:
 def campaign_key(manifest: CampaignManifest) -> str:
     """Return the identity of a campaign, independent of its number of trials.
 
-    It does not depend on names of the system and files, on the executor, on limits of time and memory, or on the
-    flavour of Perilune's FMUs. For a manifest of an earlier version it does.
+    It does not depend on names of the system and of files, on the executor, on limits of time and memory, or on the
+    flavour of Perilune's FMUs, except for a manifest of an earlier version.
     """
     document = {**manifest.document(), "trials": None}
     if manifest.identities is not None:
@@ -43,13 +43,14 @@ def campaign_key(manifest: CampaignManifest) -> str:
 
 
 def differences(stored: CampaignManifest, requested: CampaignManifest) -> str:
-    """Return the differences of two manifests as one phrase.
+    """Return the differences of two manifests as a phrase.
 
-    It is empty if only the number of trials, names and limits differ; in a manifest of an earlier version limits count.
+    The phrase is empty if only the number of trials, names and limits differ; in a manifest of an earlier version
+    limits count as differences.
     """
     one, other = ({**_without_names(manifest.document()), "trials": None} for manifest in (stored, requested))
     for document in (one, other):
-        for name in ("identities", "resets"):  # verdicts of this machine
+        for name in ("identities", "resets"):  # they depend on this machine
             document.pop(name, None)
         if stored.identities is not None:
             _drop_limits(document)
@@ -99,7 +100,7 @@ def _without_names(document: Any) -> Any:
 
 
 def _iterate_differences(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
-    """Yield dotted name and both values of the entries in which two documents differ."""
+    """Yield the dotted name and both values of each entry that differs between two documents."""
     if isinstance(left, dict) and isinstance(right, dict):
         for key in {**left, **right}:
             yield from _iterate_differences(f"{name}.{key}" if name else key, left.get(key), right.get(key))

@@ -16,7 +16,7 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignProvenance:
-    """Return the inputs that determine a batch's numbers; ``systems`` are the prepared ones by variant."""
+    """Return the inputs that determine a batch's numbers; ``systems`` are the prepared systems by variant."""
     first = next(iter(systems.values()))
     options = plan.options
     metadata: CampaignProvenance = {
@@ -124,7 +124,7 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
 
 
 def _targets(prepared: PreparedSystem) -> dict[str, float]:
-    """Return parameters named target_position and target_velocity, with one variant's initial values."""
+    """Return the initial values of parameters named target_position and target_velocity, in one variant."""
     targets = {}
     for component, fmu in prepared.network.fmus.items():
         for variable in fmu.variables.values():

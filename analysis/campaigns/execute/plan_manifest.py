@@ -53,26 +53,27 @@ class _Contents(dict[str, bytes]):
     """Contents of files under their names in a campaign's folder."""
 
     def keep(self, content: bytes, name: str) -> str:
-        """Add the content of a file, and return its name in the folder."""
+        """Add the content of a file, and return the file's name in the folder."""
         stored = content_name(content, PurePath(name).suffix)
         self[stored] = content
         return stored
 
     def keep_table(self, label: str, sha256: str, columns: Mapping[str, np.ndarray]) -> TableDocument:
-        """Add columns as Parquet, which preserves every bit."""
+        """Add columns as a Parquet file, which preserves every bit."""
         sink = pyarrow.BufferOutputStream()
         pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
         return {"label": label, "sha256": sha256, "content": self.keep(bytes(sink.getvalue()), ".parquet")}
 
 
 def make_manifest(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[CampaignManifest, dict[str, bytes]]:
-    """Return the manifest of a plan read from a campaign's file, and the contents that it refers to.
+    """Return the manifest of a plan that was read from a campaign's file, and the contents to which it refers.
 
-    ``systems`` are those of `check_plan`, by variant. Foreign FMUs are tested for their reset here, at first use.
+    ``systems`` are the prepared systems of `check_plan`, by variant. The reset of foreign FMUs is tested here, at first
+    use.
     """
     campaign, contents, supplied, series = plan.campaign, _Contents(), plan.supplied, plan.series
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
-    with chdir(plan.options.folder):  # to which paths are relative
+    with chdir(plan.options.folder):  # paths are relative to this folder
         system = _system_document([prepared.archive for prepared in systems.values()], contents)
         elsewhere = {
             requested: contents.keep(read(), requested)
@@ -109,7 +110,7 @@ def make_manifest(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tup
 
 
 def _system_document(archives: Sequence[SystemArchive], contents: _Contents) -> SystemDocument:
-    """Return the document of a system read once for each variant, with the files of all of them."""
+    """Return the document of a system that is read once for each variant, with the files of all variants."""
     archive = archives[0]
     unlisted = dict.fromkeys(name for each in archives for name in each.unlisted)
     return {
@@ -123,7 +124,7 @@ def _system_document(archives: Sequence[SystemArchive], contents: _Contents) -> 
 
 
 def _campaign_document(plan: BatchPlan, contents: _Contents) -> CampaignDocument:
-    assert plan.source is not None  # a plan that was read from a file has one
+    assert plan.source is not None  # a plan read from a file has a source
     campaign = plan.campaign
     document: CampaignDocument = {
         **_source_document(plan.source, campaign.file, contents),
@@ -138,7 +139,7 @@ def _campaign_document(plan: BatchPlan, contents: _Contents) -> CampaignDocument
 
 
 def _source_document(source: CampaignSource, label: str, contents: _Contents) -> SourceDocument:
-    """Return the document of a campaign's file and of those that it extends."""
+    """Return the document of a campaign's file, including the files that it extends."""
     extends = [_source_document(part, part.label, contents) for part in source.extends]
     document: SourceDocument = {"label": label, "content": contents.keep(source.raw, source.label)}
     attached: dict[str, AttachedDocument] = {
@@ -165,8 +166,8 @@ def restore(
 ) -> BatchPlan:
     """Return the plan in a campaign's folder, with the stored draws. Raises InputError.
 
-    ``log`` is the level of the FMUs' messages, which affects no result; ``draws`` is the folder of the table of draws
-    if it is another one; ``trust`` are permissions of foreign FMUs.
+    ``log`` is the level of the FMUs' messages, which affects no result. ``draws`` is the folder of the table of draws
+    if it is a different one. ``trust`` contains the permissions of foreign FMUs.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
@@ -191,7 +192,7 @@ def restore(
         plan = plan.of_samples(supplied).of_first(manifest.trials)
     elif not plan.is_counted:
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
-        plan = replace(plan, known_draws=stored_table)  # drawn again they could differ
+        plan = replace(plan, known_draws=stored_table)  # repeated draws could differ
     for digest, verdict in manifest.resets.items():
         store_verdict(digest, _restore_verdict(verdict))
     return plan
@@ -225,7 +226,7 @@ def _restore_series(contents: Path, manifest: CampaignManifest) -> InputSeries |
 
 
 def _restore_verdict(document: ResetDocument) -> ResetVerdict:
-    """Return a verdict, also from an earlier version, which only distinguished resets and new instances."""
+    """Return a verdict, also from an earlier version, which distinguished only resets and new instances."""
     earlier = Renewal.RESET if document.get("resets", False) else Renewal.INSTANCE
     return ResetVerdict(document.get("renewal", earlier), document["reason"])
 
@@ -250,7 +251,7 @@ def _restore_archive(contents: Path, manifest: CampaignManifest) -> SystemArchiv
         files=files,
         description=system["description"],
         elsewhere={requested: content_path(contents, content) for requested, content in manifest.elsewhere.items()},
-        known_digest=system["sha256"],  # without the files that were read in addition to its list of files
+        known_digest=system["sha256"],  # excludes files that were read but are not in its list of files
     )
 
 

@@ -24,12 +24,12 @@ CUT_OFF = ("interrupted", TIMED_OUT)
 
 @dataclass(frozen=True)
 class ReplayedTrial:
-    """Repeated trial of one ``configuration`` of a campaign: its ``flight`` with every signal, metrics and success.
+    """Repeated trial of a ``configuration`` of a campaign: its ``flight`` with every signal, and its ``outcome``.
 
-    ``faults`` acted in it. ``stored`` is True if the folder contains the trial; ``differences`` are those from the
-    stored result. There are none if this version of Perilune simulated the campaign, foreign FMUs were simulated on
-    this machine, and the simulation was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is
-    not compared.
+    ``faults`` are the faults that acted in the trial. ``stored`` is True if the folder contains the trial, and
+    ``differences`` describes how the repeated trial differs from it. Differences can occur only if the campaign was
+    simulated by another version of Perilune, if foreign FMUs were simulated on another machine, or if ``timeout`` or
+    Ctrl-C ended the simulation (``is_cut_off``); rows after such an end are not compared.
     """
 
     plan: BatchPlan
@@ -57,10 +57,10 @@ def replay_trial(
     timeout: float | None = None,
     trust: Trust = UNTRUSTED,
 ) -> ReplayedTrial:
-    """Repeat a trial of a campaign's folder with the campaign's bits. Raises InputError and StuckError.
+    """Repeat a trial from a campaign's folder with the same bits. Raises InputError and StuckError.
 
-    ``configuration`` names the variant if there are several. ``log`` is the level of the FMUs' messages; ``timeout`` (s
-    of wall time) replaces the campaign's; ``trust`` are permissions of foreign FMUs.
+    ``configuration`` names the variant if there are several. ``log`` is the level of the FMUs' messages. ``timeout`` (s
+    of wall time) replaces the campaign's. ``trust`` contains the permissions of foreign FMUs.
     """
     folder = folder.absolute()  # FMUs may change the working folder
     campaign = open_folder(folder, trust)
@@ -82,7 +82,7 @@ def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -
 def _replay(
     plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: LoadedCampaign | None
 ) -> ReplayedTrial:
-    """Repeat a trial, and compare it with the stored one in the folder of ``campaign``, if there is one."""
+    """Repeat a trial, and compare it with the stored trial if the ``campaign`` has a folder that contains it."""
     flight, outcome = Flyer(plan).replay(variant.name, trial)
     stored = None if campaign is None else _read_stored(campaign, variant, trial)
     return ReplayedTrial(
@@ -114,7 +114,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
 
 
 def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> TrialResult | None:
-    """Return the stored result of a trial, None if its shard is missing. Raises InputError for a damaged one."""
+    """Return the stored result of a trial, or None if its shard is missing. Raises InputError for a damaged shard."""
     shard = trial // campaign.numbering.size
     if not campaign.has(shard):
         return None
@@ -125,7 +125,7 @@ def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> Tria
 
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
-    """Return the bitwise differences between two results of one trial, a phrase each."""
+    """Return the bitwise differences between two results of a trial, a phrase for each."""
     if flown.status in CUT_OFF:
         return (f"status {stored.status!r} is stored, {flown.status!r} was simulated: other results are not compared",)
     pairs: dict[str, tuple[object, object]] = {

@@ -33,7 +33,7 @@ from .folder import remove_temporary_files
 class CampaignResult:
     """All trials of all variants; ``rows`` are in order of trial, in memory or read from a folder.
 
-    ``folder`` is the campaign's, as its user names it, or None.
+    ``folder`` is the path of the campaign's folder as stated by the user, or None.
     """
 
     plan: BatchPlan
@@ -51,7 +51,8 @@ class CampaignResult:
     def finish(cls, campaign: LoadedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
         """Return the result of a campaign with ``rows`` by variant, and complete its folder with the summary.
 
-        Trials after those in ``rows`` are removed from the campaign. ``more`` are further fields of a derived class.
+        Trials after those in ``rows`` are removed from the campaign. ``more`` contains further fields of a derived
+        class.
         """
         campaign = campaign.of_first(len(next(iter(rows.values()))))
         result = cls(campaign.plan, rows, campaign.provenance, campaign.user_folder, **more)
@@ -86,7 +87,7 @@ class CampaignResult:
         return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
-        """Return a row per variant and trial, with unit, kind and meaning in the metadata of each column's field.
+        """Return a row for each variant and trial, with unit, kind and meaning in the metadata of each column's field.
 
         Columns are variant, trial, status, draws, the campaign's faults, final values and metrics.
         """
@@ -99,10 +100,10 @@ class CampaignResult:
         return {**self.provenance, "variants": to_json(self.summary)}
 
     def text(self, metrics: Sequence[str] = ()) -> str:
-        """Return the summary for a terminal, with these metrics or ``all``.
+        """Return the summary for a terminal, with these metrics or ``all`` metrics.
 
-        The default is the metrics of success and requirements. Raises InputError for one that the campaign does not
-        have.
+        The default is the metrics of success and requirements. Raises InputError for a metric that the campaign does
+        not have.
         """
         faults, campaign = self.plan.fault_texts(), self.plan.campaign
         selected = select_metrics(metrics, [metric.name for metric in campaign.metrics], campaign.judged_names())

@@ -1,4 +1,4 @@
-"""Runs a campaign: manifest, draws, shards simulated by workers, results."""
+"""Run of a campaign: manifest, draws, shards simulated by workers, results."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ def run_batch(
 ) -> CampaignResult:
     """Simulate every trial of every variant of a plan. Raises InputError before any simulation.
 
-    ``workers`` is the number of parallel simulations (default: one per processor), ``engine`` one of `ENGINES`
+    ``workers`` is the number of parallel simulations (default: one for each processor), ``engine`` one of `ENGINES`
     (default: threads if the FMUs permit); ``elsewhere`` is an executor that replaces both. With ``output`` every shard
     is stored in that folder on completion, and the summary at the end, so that ``resume`` can continue after an
-    interruption. Without it nothing remains after Ctrl-C.
+    interruption. Without ``output`` no results remain after Ctrl-C.
     """
     campaign = open_campaign(plan, output, resume=resume, engine=engine, workers=workers)
     rows = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
@@ -48,7 +48,7 @@ def run_batch(
 
 
 def merge_rows(campaign: LoadedCampaign) -> Mapping[str, TrialTable]:
-    """Return the trials by variant of a campaign whose shards are stored. Raises InputError if some are missing."""
+    """Return the trials by variant of a campaign with stored shards. Raises InputError if shards are missing."""
     missing = campaign.missing()
     decision = _decide(campaign, missing)
     if missing and not decision.is_decided:
@@ -91,7 +91,7 @@ def fly_campaign(
 
 
 def _decide(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDecision:
-    """Return the decision from the stored shards of a campaign."""
+    """Return the decision that follows from the stored shards of a campaign."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
         for shard in sorted(set(range(numbering.count)) - set(missing)):
@@ -128,14 +128,14 @@ def _fly_here(
 class CampaignDecision:
     """Decision of a campaign from its shards in order of number, regardless of the order in which they arrive.
 
-    ``shards`` is the number of first shards that decide the campaign, None while it is undecided: it depends neither on
-    workers nor on other simulated shards. A campaign that is not to end early is never decided.
+    ``shards`` is the number of shards, counted from the first, that decide the campaign, or None while it is undecided.
+    It depends neither on workers nor on further simulated shards. A campaign that is not to end early is never decided.
     """
 
     def __init__(self, plan: BatchPlan) -> None:
         self._plan = plan
-        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # shards after one that is missing
-        self._kept: dict[str, list[np.ndarray]] = {}  # satisfied trials by variant, for each requirement
+        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # shards that arrived before an earlier one
+        self._kept: dict[str, list[np.ndarray]] = {}  # True for satisfied trials, by variant and for each requirement
         self._looked = 0
         self.shards: int | None = None
 
@@ -144,7 +144,7 @@ class CampaignDecision:
         return self.shards is not None
 
     def add(self, shard: int, variants: Mapping[str, TrialTable]) -> None:
-        """Add the trials of a shard by variant, evaluated once all earlier shards are present."""
+        """Add the trials of a shard by variant, which are evaluated once all earlier shards are present."""
         if not self._plan.until_decided:
             return
         requirements = self._plan.campaign.requirements

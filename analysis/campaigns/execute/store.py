@@ -1,4 +1,4 @@
-"""Storage of the shards of a campaign, in its folder or in memory, and table of a variant's trials in them."""
+"""Storage of a campaign's shards, in its folder or in memory, and the table of a variant's trials in them."""
 
 from __future__ import annotations
 
@@ -26,13 +26,16 @@ class ShardTable(TrialTable):
 
     @property
     def _schema(self) -> pyarrow.Schema:
-        """Columns of the first shard. Raises InputError if it lacks one."""
+        """Columns of the first shard. Raises InputError if a column is missing."""
         schema = self._stored.schema(self._shards[0])
         return schema.remove(schema.names.index("variant"))
 
     @property
     def table(self) -> pyarrow.Table:
-        """All columns in memory. Raises InputError for a shard that is damaged or has other columns than the first."""
+        """All columns in memory.
+
+        Raises InputError for a shard that is damaged, or has other columns than the first shard.
+        """
         tables: list[pyarrow.Table] = []
         for shard in self._shards:
             table = self._read(shard, None).drop_columns(["variant"])
@@ -45,7 +48,7 @@ class ShardTable(TrialTable):
         return pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks()
 
     def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Yield some columns, a shard at a time. Raises InputError for a damaged shard."""
+        """Yield some columns, shard by shard. Raises InputError for a damaged shard."""
         for shard in self._shards:
             yield self._read(shard, names).select(names)
 

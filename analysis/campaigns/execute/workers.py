@@ -1,4 +1,4 @@
-"""Parallel trials on this machine: a thread for each worker, and a child process for FMUs that cannot share one."""
+"""Parallel trials on this machine: a thread for each worker, and children for FMUs that cannot share a process."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from .flyer import Flyer
 
 Result = TypeVar("Result")
 ENGINES: tuple[Engine, ...] = get_args(Engine)
-WAITING = 4  # tasks that are handed out ahead, for each worker
+WAITING = 4  # tasks submitted in advance for each worker
 
 
 def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
-    """Return True if trials run in threads, as requested or if possible. Raises InputError if it is impossible."""
+    """Return True if trials run in threads, as requested or where possible. Raises InputError if this is impossible."""
     systems = list(systems)
     foreign = not all(map(may_load_here, systems))
     can = all(prepared.flies_in_threads for prepared in systems) and not foreign
@@ -44,12 +44,12 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
 
 
 def needs_children(workers: int, threads: bool, engine: str | None) -> bool:
-    """Return True if trials that could run in this process run in children of the flight server."""
+    """Return True if trials that could run in this process must run in children of the flight server."""
     return engine == "processes" or (workers > 1 and not threads)
 
 
 def worker_count(workers: int | None) -> int:
-    """Return the number of parallel simulations: as requested, or one per processor. Raises InputError."""
+    """Return the number of parallel simulations: as requested, or one for each processor. Raises InputError."""
     count = workers if workers is not None else cpu_count()
     if count < 1:
         raise InputError("`workers`", str(count), "not a positive number", "give 1 or more")
@@ -57,12 +57,12 @@ def worker_count(workers: int | None) -> int:
 
 
 class FlyerPool:
-    """Workers that each have a `Flyer` of one plan, while the pool is open.
+    """Workers, each with a `Flyer` of the same plan, while the pool is open.
 
-    Each is a thread; a single worker uses the caller's. Perilune's native FMUs are simulated there. Python FMUs hold
-    the interpreter lock, and foreign FMUs are not trusted: unless ``threads``, simulations run in children of the
-    flight server if there are two workers or more, or ``in_child``. ``trials`` is the number of each variant's trials,
-    if known.
+    Each worker is a thread; a single worker uses the caller's thread. Perilune's native FMUs are simulated in these
+    threads. Python FMUs hold the interpreter lock, and foreign FMUs are not trusted: unless ``threads`` are requested,
+    they are simulated in children of the flight server if there are at least two workers, or if ``in_child``.
+    ``trials`` is the number of each variant's trials, if known.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class FlyerPool:
         self._flyers.append(self._thread.flyer)
 
     def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:
-        """Call ``function(flyer, *task)`` for every task; yield (index of the task, result), in any order.
+        """Call ``function(flyer, *task)`` for every task; yield pairs (index of the task, result) in any order.
 
         Tasks that have not begun when the iterator is closed are dropped.
         """
@@ -100,7 +100,7 @@ class FlyerPool:
     def _hand_out(
         self, executor: ThreadPoolExecutor, function: Callable[..., Result], tasks: Iterator[tuple[int, tuple]]
     ) -> Iterator[tuple[int, Result]]:
-        """Yield the results of tasks, submitting few at a time to limit memory."""
+        """Yield the results of tasks, of which only a few are submitted at a time to limit memory."""
         futures: dict[Future, int] = {}
         try:
             while True:

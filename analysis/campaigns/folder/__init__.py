@@ -1,1 +1,1 @@
-"""A campaign's folder as analysts read it: lazily, complete or while the campaign is running."""
+"""Folder of a campaign as analysts read it: on demand, complete or while the campaign is running."""

@@ -1,4 +1,4 @@
-"""Folder of a campaign, complete or still being written: its identity and shards, checked when they are read."""
+"""Folder of a campaign, complete or still being written: its identity, and its shards, which are checked when read."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Shard(NamedTuple):
 class CampaignFolder:
     """Campaign in a folder, as of the time when it was opened.
 
-    ``provenance`` are the inputs that determine its numbers; ``summary`` is summary.json, None while trials are
+    ``provenance`` contains the inputs that determine its numbers; ``summary`` is summary.json, or None while trials are
     missing.
     """
 
@@ -84,8 +84,8 @@ class CampaignFolder:
     def shards(self) -> tuple[Shard, ...]:
         """Stored shards in order, at least one.
 
-        Raises InputError for one that is damaged or of another campaign, for missing ones of a complete campaign, and
-        if there is none.
+        Raises InputError for a shard that is damaged or belongs to another campaign, for missing shards of a complete
+        campaign, and if there are no shards.
         """
         shards = tuple(self._all_shards() if self.is_complete else map(self._find, self._paths))
         if not shards:
@@ -99,11 +99,11 @@ class CampaignFolder:
 
     @cached_property
     def _paths(self) -> list[Path]:
-        """Files of shards of any campaign."""
+        """Files of all shards, of any campaign."""
         return sorted(path for path in (self.folder / FOLDER).glob("*.parquet") if path.stem.isdecimal())
 
     def _all_shards(self) -> Iterator[Shard]:
-        """Yield all shards, which contain every trial once; ignore further ones of a longer campaign."""
+        """Yield all shards, which contain every trial once; ignore further shards of a longer campaign."""
         end = 0
         for number in itertools.count():
             if end == self.provenance["trials"]:
@@ -121,10 +121,10 @@ class CampaignFolder:
         return Shard(path, self._trials_in(path, describe_columns(path), SUMMARY if self.is_complete else MANIFEST))
 
     def _trials_in(self, path: Path, about: object, whose: str) -> range:
-        """Return the trials in a shard's file from its metadata ``about``, as from `_about`.
+        """Return the trials in a shard's file from its metadata ``about``, as returned by `_about`.
 
-        Raises InputError if the file belongs to another batch than the file ``whose``, or has the name of another
-        shard.
+        Raises InputError if the file has the name of another shard, or belongs to another batch than the file
+        ``whose``.
         """
         if not isinstance(about, dict) or about.get("batch") != self.batch:
             raise InputError(path, "", f"belongs to another batch than {whose}", NEW_FOLDER)
@@ -142,11 +142,11 @@ class CampaignFolder:
         return {"batch": self.batch, "variant": variant, "trial": trial}
 
     def has(self, number: int, trials: range) -> bool:
-        """Return True if this campaign's shard with these trials is stored. Raises InputError for a damaged one."""
+        """Return True if the campaign's shard with these trials is stored. Raises InputError for a damaged shard."""
         return describe_columns(shard_path(self.folder, number)) == self._about(number, trials)
 
     def write(self, number: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:
-        """Write the traces of a shard, then its table, whose existence marks it as complete; ``trials`` by variant."""
+        """Write the traces of a shard, then its table of ``trials`` by variant, which marks the shard as complete."""
         for variant, rows in trials.items():
             for trial, trace in rows.traces.items():
                 table = describe(table_of(trace), self._about_trace(variant, trial))
@@ -154,12 +154,12 @@ class CampaignFolder:
         flown = next(iter(trials.values())).trial
         about = self._about(number, range(int(flown[0]), int(flown[-1]) + 1))
         table = describe(trial_table(plan, trials), about)
-        write_parquet(table, shard_path(self.folder, number), len(flown))  # each variant a row group
+        write_parquet(table, shard_path(self.folder, number), len(flown))  # with a row group for each variant
 
     def read(self, shard: Shard, names: Collection[str] | None = None, variant: str | None = None) -> pyarrow.Table:
-        """Return columns of a shard (default: all) and those that identify its rows, of one variant or of all.
+        """Return columns of a shard (default: all) and the columns that identify its rows, of one variant or of all.
 
-        Raises InputError if the file is damaged, if a column is missing or has another type, and unless the rows are
+        Raises InputError if the file is damaged, if a column is missing or has another type, and if the rows are not
         the shard's trials in order.
         """
         path, size = shard.path, len(shard.trials)
@@ -178,7 +178,7 @@ class CampaignFolder:
         return table
 
     def schema(self, shard: Shard) -> pyarrow.Schema:
-        """Return the columns of a shard. Raises InputError if a variant or a metric is missing, or there is another."""
+        """Return the columns of a shard. Raises InputError if a variant or metric is missing or unknown."""
         schema = read_schema(shard.path)
         metrics = [f"metric.{name}" for name in self.provenance["metrics"]]
         for name in ("variant", *metrics):
@@ -190,9 +190,9 @@ class CampaignFolder:
         return schema
 
     def traces(self, variant: str) -> dict[int, Path]:
-        """Return the trace files of a variant by trial, without those of other campaigns.
+        """Return the trace files of a variant by trial, without traces of other campaigns.
 
-        Raises InputError for a damaged one.
+        Raises InputError for a damaged file.
         """
         return {
             trial: path
@@ -203,7 +203,7 @@ class CampaignFolder:
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> Trace | None:
         """Return a trial's trace of these signals (default: all) and ``time`` (s), or None if it has no trace.
 
-        Raises InputError for a damaged one.
+        Raises InputError for a damaged trace.
         """
         path = trace_path(self.folder, variant, trial)
         return read_trace(path, names) if describe_columns(path) == self._about_trace(variant, trial) else None

@@ -44,7 +44,7 @@ class StoredDraws:
 
 
 def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
-    """Return the draws of a folder's first trials. Raises InputError if it does not contain them all."""
+    """Return the draws of a folder's first trials. Raises InputError if it does not contain all of them."""
     path = folder / DRAWS
     with _open_draws(path) as file:
         there, rows = file.schema_arrow.names, file.metadata.num_rows

@@ -1,4 +1,4 @@
-"""Reads and writes files of shards; a shard's file exists only if all of its trials and their traces are stored."""
+"""Functions that read and write files of shards. A shard's file exists only if all trials and traces are stored."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ NEW_FOLDER = "run the batch again with an empty folder"
 
 
 def check_folders(folder: Path, remedy: str = NEW_FOLDER) -> None:
-    """Reject trials and traces in anything but folders, such as links to some. Raises InputError."""
+    """Reject trials and traces that are not in folders, but for instance in links to folders. Raises InputError."""
     for path in (folder / FOLDER, folder / TRACES, *folder.glob(f"{TRACES}/*")):
         check_folder(path, remedy)
 
@@ -37,18 +37,18 @@ def shard_path(folder: Path, shard: int) -> Path:
 
 
 def trace_path(folder: Path, variant: str, trial: int) -> Path:
-    """Return the path of a trial's trace, with slashes in the variant's name (it may be a path) replaced."""
+    """Return the path of a trial's trace; slashes in the variant's name, which may be a path, are replaced."""
     return folder / TRACES / variant.replace("/", "_") / f"{trial:06d}.parquet"
 
 
 def clear(folder: Path) -> None:
-    """Remove the shards of an earlier batch. Traces stay, since each names its batch."""
+    """Remove the shards of an earlier batch. Traces are not removed, since each names its batch."""
     if (folder / FOLDER).is_dir():
         shutil.rmtree(folder / FOLDER)
 
 
 def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
-    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` rows in each row group.
+    """Write the table of draws to ``folder``/draws.parquet, a row for each trial, ``size`` rows in each row group.
 
     Counter-based draws have no table: the files of trials contain them.
     """
@@ -70,7 +70,7 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
 
 
 def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Table:
-    """Return a row per variant and trial: identity, status, draws, the campaign's faults, final values, metrics.
+    """Return a row for each variant and trial: identity, status, draws, the campaign's faults, final values, metrics.
 
     All variants have the same trials, which are consecutive.
     """
@@ -97,7 +97,7 @@ def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
 def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
     """Write a table with a checksum on every page, so that damage is detected on reading.
 
-    ``rows`` is the number of rows in a row group; None for a single one.
+    ``rows`` is the number of rows in a row group; None stands for a single group.
     """
     with whole_file(path) as partial:
         pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
@@ -108,7 +108,7 @@ def describe(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table
 
 
 def describe_columns(path: Path) -> object:
-    """Return the metadata of a shard's or trace's file; None if it has none or the file is missing.
+    """Return the metadata in a file of a shard or trace, or None if the file is missing or has no metadata.
 
     Raises InputError for a damaged file.
     """
@@ -126,14 +126,14 @@ def read_schema(path: Path) -> pyarrow.Schema:
 
 
 def trace_files(folder: Path, variant: str) -> dict[int, Path]:
-    """Return the files of a variant's traces by trial, in order, of any batch."""
+    """Return the files of a variant's traces, of any batch, by trial and in order."""
     files = trace_path(folder, variant, 0).parent.glob("*.parquet")
     numbered = {int(path.stem): path for path in files if path.stem.isdecimal()}
     return dict(sorted(numbered.items()))
 
 
 def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-    """Return the recorded signals of one trial with ``time`` (s): those of ``names`` that exist, by default all.
+    """Return the recorded signals of a trial with ``time`` (s): the existing ones of ``names``, by default all.
 
     Raises InputError.
     """
@@ -153,7 +153,7 @@ def unreadable(path: Path, error: Exception) -> InputError:
 
 
 def read_metadata(schema: pyarrow.Schema) -> object:
-    """Return the metadata of a table, None if it has none."""
+    """Return the metadata of a table, or None if it has none."""
     try:
         return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
     except ValueError:
@@ -171,7 +171,7 @@ NUMBER_PREFIXES = ("draw.", "fault.", "final.", "metric.")
 
 
 def check_columns(table: pyarrow.Table, names: Collection[str], path: Path) -> None:
-    """Reject a table of trials that lacks columns in ``names``, or has them with other types. Raises InputError."""
+    """Reject a table of trials with columns in ``names`` that are missing or have other types. Raises InputError."""
     for name in (*IDENTITY, *names):
         if name not in table.column_names:
             raise InputError(path, name, "no such column", NEW_FOLDER)
@@ -183,7 +183,7 @@ def check_columns(table: pyarrow.Table, names: Collection[str], path: Path) -> N
 
 
 def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
-    """Reject a column that does not consist of text. Raises InputError."""
+    """Reject a column that does not contain texts. Raises InputError."""
     kind = table.schema.field(name).type
     if pyarrow.types.is_dictionary(kind):
         kind = kind.value_type
@@ -193,7 +193,7 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
 
 
 def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
-    """Return a Parquet file with verified checksums, or those of its ``columns`` that exist, or one row group.
+    """Return a Parquet file with verified checksums: all of it, the existing ones of ``columns``, or one row group.
 
     Raises InputError.
     """
@@ -216,7 +216,7 @@ def check_names(names: Sequence[str], path: Path) -> None:
 
 
 def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
-    """Return a column as doubles, integers or booleans, according to its type. Raises InputError."""
+    """Return a column as doubles, integers or booleans, depending on its type. Raises InputError."""
     kind = table.schema.field(name).type
     column = table[name]
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)

@@ -14,14 +14,14 @@ from filelock import ReadWriteLock, Timeout
 from ....common.errors import InputError
 from ....common.regular import check_regular
 
-FILE = ".lock"  # an empty database, whose lock ends with its process
+FILE = ".lock"  # an empty database; its lock ends with the process
 
 
 @contextmanager
 def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
-    """Lock a folder, shared with other users or ``alone``; None is no folder, and needs no lock.
+    """Lock a folder, shared with other users or ``alone``; do nothing for None.
 
-    Raises InputError if another process has a conflicting lock. Warns if the file system has no locks.
+    Raises InputError if another process has a conflicting lock. Warns if the file system does not support locks.
     """
     with ExitStack() as entered:
         if folder is not None:

@@ -1,4 +1,4 @@
-"""Manifest of a campaign, one JSON file: all inputs that determine its numbers, with contents under their SHA-256."""
+"""Manifest of a campaign, a JSON file: all inputs that determine its numbers, with contents named by their SHA-256."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from ...runtime.instances.renewal import Renewal
 from .files import check_folders
 
 FILE = "manifest.json"
-CONTENTS = "files"  # the folder next to it
+CONTENTS = "files"  # folder of the contents, next to the manifest
 SAME_VERSION = "resume with the version of perilune that wrote this file"
 WRITE = "give a folder that perilune batch or prepare wrote"
 
 
 class ResetDocument(TypedDict):
-    """`ResetVerdict` in a manifest; earlier versions have ``resets`` instead of ``renewal``."""
+    """`ResetVerdict` in a manifest; earlier versions of it have ``resets`` instead of ``renewal``."""
 
     renewal: NotRequired[Renewal]
     resets: NotRequired[bool]
@@ -34,7 +34,7 @@ class ResetDocument(TypedDict):
 
 
 class TableDocument(TypedDict):
-    """Table supplied by the user: its label, the SHA-256 of its file, and its content."""
+    """Table supplied by the user: its label, the SHA-256 of its file, and the name of its content."""
 
     label: str
     sha256: str
@@ -42,7 +42,7 @@ class TableDocument(TypedDict):
 
 
 class SystemDocument(TypedDict):
-    """System; ``files`` are contents by archive name, ``fmu`` is the name of a stand-alone FMU."""
+    """System; ``files`` maps archive names to contents, and ``fmu`` is the name of a stand-alone FMU."""
 
     name: str
     label: str
@@ -60,9 +60,9 @@ class AttachedDocument(TypedDict):
 
 
 class SourceDocument(TypedDict, total=False):
-    """Campaign file, with those that it extends; ``position`` is the place of its entries among theirs.
+    """Campaign file, with the files that it extends; ``position`` is the place of its own entries among theirs.
 
-    ``attached`` are the tables of its lookups, by the paths it states.
+    ``attached`` contains the tables of its lookups, by the paths that it states.
     """
 
     label: Required[str]
@@ -85,13 +85,18 @@ class CampaignDocument(SourceDocument, total=False):
 class CampaignManifest:
     """Campaign to be simulated in shards; every value can be written as JSON.
 
-    ``elsewhere`` are contents outside the ``system``, by the key of their use. ``options`` are the system options,
-    ``faults`` the user's, ``series`` the inputs over time (label, sha256, content), ``draws`` likewise supplied ones;
-    ``timeout`` is in s. ``fmus`` are hashes by variant and component, ``resets`` the verdicts of reset tests by hash.
-    With ``until_decided`` the campaign ends with the shard in which its requirements are decided. ``shard_size`` is the
-    number of trials in a shard, of each variant. ``elementary_functions`` is their version, on which the last bits
-    depend; None for earlier campaigns, which used those of the C library. ``identities`` are those of FMUs by hash, if
-    other files can be the same FMU; None for earlier campaigns.
+    - ``elsewhere``: contents outside the ``system``, by the key of their use
+    - ``options``: system options
+    - ``faults``: the user's faults
+    - ``series``, ``draws``: inputs over time, and supplied draws (label, sha256, content)
+    - ``timeout``: limit on each simulation, s
+    - ``fmus``: hashes of FMUs by variant and component
+    - ``resets``: verdicts of reset tests by hash
+    - ``until_decided``: True if the campaign ends with the shard in which its requirements are decided
+    - ``shard_size``: number of trials of each variant in a shard
+    - ``elementary_functions``: their version, on which the last bits depend; None for earlier campaigns, which used
+      the functions of the C library
+    - ``identities``: identities of FMUs by hash, for FMUs that other files can replace; None for earlier campaigns
     """
 
     perilune: str
@@ -113,7 +118,10 @@ class CampaignManifest:
     identities: Mapping[str, str] | None = None
 
     def document(self) -> dict[str, object]:
-        """Return the manifest as JSON, without keys that an earlier version lacks, so that its digest is unchanged."""
+        """Return the manifest as JSON.
+
+        Keys unknown to earlier versions are omitted if they are None, so that digests do not change.
+        """
         content: dict[str, object] = json.loads(json.dumps(asdict(self)))
         for name in ("elementary_functions", "identities"):
             if content[name] is None:
@@ -121,7 +129,7 @@ class CampaignManifest:
         return content
 
     def names(self) -> list[str]:
-        """Return the names of the contents that it refers to, each once."""
+        """Return the names of the contents to which the manifest refers, each once."""
         tables = [table["content"] for table in (self.series, self.draws) if table is not None]
         return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
 
@@ -130,7 +138,7 @@ class CampaignManifest:
 
 
 def _contents(campaign: SourceDocument) -> list[str]:
-    """Return the contents of a campaign's file, of its tables, and of the files that it extends."""
+    """Return the names of the contents of a campaign's file, of its tables, and of the files that it extends."""
     attached = (table["content"] for table in campaign.get("attached", {}).values())
     return [campaign["content"], *attached, *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
@@ -178,21 +186,21 @@ def content_name(content: bytes, suffix: str) -> str:
 
 
 def store_contents(folder: Path, contents: dict[str, bytes]) -> None:
-    """Write contents under their names, unless they exist already."""
+    """Write contents to files with their names, unless they exist already."""
     for name, content in contents.items():
         if not (folder / name).is_file():
             write_atomically(folder / name, content)
 
 
 def remove_contents(folder: Path) -> None:
-    """Remove the contents from a folder; other files stay."""
+    """Remove the contents from a folder, but no other files."""
     for path in folder.glob("*"):
         if NAMED.fullmatch(path.name):
             path.unlink()
 
 
 def content_path(folder: Path, name: str) -> Path:
-    """Return the path of a content, after checking its hash against its name. Raises InputError."""
+    """Return the path of a content after comparing its hash with its name. Raises InputError."""
     path = folder / name
     content = read_regular(path, COPY_AGAIN, INPUT_BYTES.limit)
     if content_name(content, path.suffix) != name:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from ....common.bounds import SHARDS
 from ....common.errors import InputError
 
-LEAST, MOST, PARTS = 25, 5000, 40  # trials of a shard, and into how many a campaign is parted between these
+LEAST, MOST, PARTS = 25, 5000, 40  # least and most trials in a shard, and number of shards between these limits
 
-LONGEST = 40  # characters of a number or a span
+LONGEST = 40  # most characters of a number or a span
 
 
 @dataclass(frozen=True)
@@ -29,12 +29,12 @@ class Numbering:
 
 
 def shard_size(trials: int) -> int:
-    """Return the number of trials in a shard, from the campaign alone, not from machine or workers."""
+    """Return the number of trials in a shard, which depends on the campaign only, not on machine or workers."""
     return min(max(-(-trials // PARTS), LEAST), MOST)
 
 
 def format_shards(shards: Sequence[int]) -> str:
-    """Return ascending shard numbers as text for `perilune shard`: 0-3 7."""
+    """Return ascending shard numbers as text for `perilune shard`, such as 0-3 7."""
     starts = [shard for index, shard in enumerate(shards) if index == 0 or shards[index - 1] != shard - 1]
     ends = [shard for index, shard in enumerate(shards) if index == len(shards) - 1 or shards[index + 1] != shard + 1]
     pairs = zip(starts, ends, strict=True)

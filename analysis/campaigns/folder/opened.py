@@ -48,7 +48,7 @@ class OpenedResults:
 
     @property
     def flown(self) -> int:
-        """Number of stored trials of each variant; all, unless the campaign is still running."""
+        """Number of stored trials of each variant, which is less than all while the campaign is running."""
         return self.source.flown
 
     @cached_property
@@ -59,7 +59,7 @@ class OpenedResults:
             [str(shard.path) for shard in self.source.shards],
             schema=self._schema,
             format=pyarrow.dataset.ParquetFileFormat(default_fragment_scan_options=scan),
-            filesystem=LocalFileSystem(),  # else a path with a colon is taken for an address
+            filesystem=LocalFileSystem(),  # otherwise a path with a colon would be interpreted as an address
         )
 
     @cached_property
@@ -83,10 +83,10 @@ class OpenedResults:
     def arrow(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> pyarrow.Table:
-        """Return a row per variant and trial for which ``where`` is true (default: all), with some ``columns``.
+        """Return a row for each variant and trial for which ``where`` is true (default: all), with some ``columns``.
 
-        ``where`` is an expression over any columns: ``pyarrow.compute.field("metric.miss") > 10``. Raises KeyError for
-        a missing column, InputError for a damaged shard.
+        ``where`` is an expression over any columns, such as ``pyarrow.compute.field("metric.miss") > 10``. Raises
+        KeyError for a missing column, InputError for a damaged shard.
         """
         self._check(columns)
         with self._describe():
@@ -95,11 +95,11 @@ class OpenedResults:
     def batches(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> Iterator[pyarrow.RecordBatch]:
-        """Yield the rows of `arrow` in order and in batches, in bounded memory. Raises as `arrow` does."""
+        """Yield the rows of `arrow` in order and in batches, in bounded memory. Raises the errors of `arrow`."""
         self._check(columns)
         names = self._schema.names if columns is None else list(columns)
         with self._describe():
-            # each shard to its end: to_batches of the whole reads ahead, and Arrow 26 may crash where it is left early
+            # shard by shard: to_batches of the dataset reads ahead, and Arrow 26 may crash if iteration ends early
             for shard in self.dataset.get_fragments():
                 table = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
                 yield from table.to_batches()
@@ -109,10 +109,10 @@ class OpenedResults:
     ) -> float:
         """Return the least value of a metric that a ``share`` of the trials does not exceed.
 
-        The result is exact, and memory is bounded. As for the quantiles in summary.json, all trials count whose metric
-        is not nan, even infinite ones; with ``where``, only those for which it is true, as in `arrow`. The result is
-        nan if there are none. ``variant`` may be omitted if the campaign has only one. Raises KeyError for an unknown
-        metric or variant, ValueError for an invalid share.
+        The result is exact, and memory is bounded. As for the quantiles in summary.json, trials with infinite values
+        count, but not trials with nan. With ``where``, only trials for which it is true count, as in `arrow`. The
+        result is nan if no trial counts. ``variant`` may be omitted if the campaign has only one. Raises KeyError for
+        an unknown metric or variant, ValueError for an invalid share.
         """
         name = f"metric.{metric}"
         if metric not in self.provenance["metrics"]:
@@ -127,10 +127,11 @@ class OpenedResults:
         return quantile(values, share)
 
     def traces(self, variant: str | None = None, names: Sequence[str] | None = None) -> Any:
-        """Return a variant's recorded signals over time: an xarray.Dataset over (trial, time), nan after each end.
+        """Return a variant's recorded signals over time, an xarray.Dataset over (trial, time).
 
-        ``names`` selects signals, by default all; units are in ``attrs``. Raises KeyError for an unknown signal or
-        variant, and if the campaign records no traces; ImportError without xarray.
+        Values are nan after the end of a trial. ``names`` selects signals, by default all; units are in ``attrs``.
+        Raises KeyError for an unknown signal or variant, and if the campaign records no traces; ImportError without
+        xarray.
         """
         return trace_dataset(self.source, self._variant(variant), names)
 
@@ -148,7 +149,7 @@ class OpenedResults:
 
     @contextmanager
     def _describe(self) -> Iterator[None]:
-        """Translate Arrow's errors: a missing column in ``where``, a damaged shard."""
+        """Translate errors of Arrow for a missing column in ``where``, and for a damaged shard."""
         try:
             yield
         except (OSError, pyarrow.ArrowException) as error:
@@ -156,5 +157,5 @@ class OpenedResults:
             if unknown is not None:
                 self._check([unknown[1]])
             for shard in self.source.shards:
-                read_table(shard.path)  # raises with the name of the damaged one
+                read_table(shard.path)  # raises an error that names the damaged shard
             raise

@@ -9,7 +9,7 @@ from typing import NotRequired, TypedDict
 
 
 class SignalMetadata(TypedDict, total=False):
-    """Unit of a signal (None if undeclared), its FMI type, and the name of its axis if it is an element along one."""
+    """Unit of a signal (None if undeclared), its FMI type, and the name of its axis if it has one."""
 
     unit: str | None
     type: str
@@ -17,7 +17,7 @@ class SignalMetadata(TypedDict, total=False):
 
 
 class MetricMetadata(TypedDict):
-    """Metric as its campaign declares it, whether it is true or false, and the name of its axis, if any."""
+    """Metric as declared by its campaign, with True if it is a truth value, and with the name of its axis, if any."""
 
     axis: NotRequired[str]
     condition: NotRequired[str]
@@ -39,11 +39,11 @@ class RecordMetadata(TypedDict):
 
 
 class CampaignMetadata(TypedDict, total=False):
-    """Properties of a batch that its numbers do not contain.
+    """Properties of a batch that do not follow from its numbers.
 
-    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of supplied draws and a ``draw_scheme`` other than a table (each
-    only if there is one), ``success`` (expression), recorded ``signals``, ``targets`` (parameters target_position and
-    target_velocity by variant).
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` (of supplied draws) and ``draw_scheme`` (other than a table) are
+    only present if there is one. ``success`` is an expression. ``signals`` are the recorded signals. ``targets``
+    contains the parameters target_position and target_velocity by variant.
     """
 
     group: str
@@ -62,8 +62,8 @@ class CampaignMetadata(TypedDict, total=False):
 class CampaignProvenance(CampaignMetadata, total=False):
     """Inputs that determine a batch's numbers, other than the trials themselves.
 
-    ``batch`` is the key of the batch. Folders written by earlier versions have a key derived from their manifest, in
-    ``manifest``, instead.
+    ``batch`` is the key of the batch. Folders written by earlier versions contain, in ``manifest``, a key derived from
+    their manifest instead.
     """
 
     system: str
@@ -93,7 +93,7 @@ class CampaignProvenance(CampaignMetadata, total=False):
 def batch_digest(provenance: Mapping[str, object]) -> str:
     """Return the SHA-256 that identifies a batch independently of its number of trials, since it can be extended.
 
-    For folders of earlier versions it is that of the provenance as JSON with sorted keys.
+    For folders of earlier versions it is the SHA-256 of the provenance as JSON with sorted keys.
     """
     if "batch" in provenance:
         return str(provenance["batch"])

@@ -1,4 +1,4 @@
-"""Reads a complete campaign from the folder that `perilune batch --output` wrote, to compare it with others."""
+"""Reader of a complete campaign from the folder that `perilune batch --output` wrote, for comparison with others."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ RESUME = "complete the batch: repeat its command with `resume`"
 class StoredBatch:
     """All trials of a campaign in a folder.
 
-    ``document`` is summary.json. ``draws`` are columns over trials; ``variants`` are the trials by variant, in order
-    and without traces; ``traced`` are the trials of each variant with a trace of this campaign.
+    ``document`` is summary.json. ``draws`` contains columns over trials, and ``variants`` the trials by variant, in
+    order and without traces. ``traced`` lists, for each variant, the trials with a trace of this campaign.
     """
 
     source: CampaignFolder
@@ -67,7 +67,7 @@ class StoredBatch:
 
     @property
     def faults(self) -> list[str]:
-        """Simulated faults, the campaign's and the user's."""
+        """Simulated faults of the campaign and of the user."""
         return self.document.get("faults", [])
 
     @property
@@ -94,7 +94,7 @@ class StoredBatch:
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
-        """Groups of trials; none unless the campaign declares them. Raises InputError."""
+        """Groups of trials; empty unless the campaign declares them. Raises InputError."""
         where = (str(self.folder / "summary.json"), "group")
         if self.group is None:
             return []
@@ -103,14 +103,14 @@ class StoredBatch:
         return groups_of([self.draws[self.group]], where)
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-        """Return the recorded signals of a traced trial with ``time`` (s): those in ``names``, by default all."""
+        """Return the recorded signals of a traced trial with ``time`` (s): the signals in ``names``, by default all."""
         trace = self.source.trace(variant, trial, names)
-        assert trace is not None  # unless another campaign has replaced it meanwhile
+        assert trace is not None  # it exists unless another campaign has replaced it meanwhile
         return trace
 
 
 def read_batch(folder: Path) -> StoredBatch:
-    """Return the batch in a folder. Raises InputError if files are missing, damaged, or of two batches."""
+    """Return the batch in a folder. Raises InputError if files are missing, damaged, or from different batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
     check_folders(folder)
@@ -127,7 +127,7 @@ def read_batch(folder: Path) -> StoredBatch:
 
 
 def _draws(folder: Path, shards: Mapping[Shard, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
-    """Return the draws of all trials from their table or, without one, from the first variant in the shards."""
+    """Return the draws of all trials from their table or, without a table, from the first variant in the shards."""
     if not is_counted:
         _check_there(folder, DRAWS)
         sampled = read_table(folder / DRAWS)
@@ -150,7 +150,7 @@ def _check_there(folder: Path, name: str) -> None:
 def _variants(
     source: CampaignFolder, shards: Mapping[Shard, pyarrow.Table], draws: Mapping[str, np.ndarray]
 ) -> dict[str, TrialTable]:
-    """Return the trials by variant, after checking their draws against draws.parquet."""
+    """Return the trials by variant, after comparing their draws with draws.parquet."""
     by_variant: dict[str, list[TrialTable]] = {variant: [] for variant in source.variants}
     is_sampled = "trial" in draws and {len(column) for column in draws.values()} == {source.provenance["trials"]}
     for shard, table in shards.items():
@@ -175,7 +175,7 @@ def _column(draw: str) -> str:
 
 
 def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable], path: Path) -> None:
-    """Reject a summary whose variants or success rates differ from those of the table."""
+    """Reject a summary with variants or success rates that differ from those of the table."""
     if list(document["variants"]) != list(variants):
         raise InputError(path, "variants", "differ from the variants in trials/", NEW_FOLDER)
     for name, trials in variants.items():

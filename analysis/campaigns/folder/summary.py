@@ -30,14 +30,14 @@ FACTS = (
 
 
 def without_summary(document: SummaryDocument) -> CampaignProvenance:
-    """Return summary.json without the summary: the inputs that determine the batch's numbers."""
+    """Return the content of summary.json except the summary: the inputs that determine the batch's numbers."""
     entries = document.copy()
     del entries["variants"]
     return entries
 
 
 def read_summary(path: Path) -> SummaryDocument:
-    """Return the content of summary.json. Raises InputError for any other file, or one of an older version."""
+    """Return the content of summary.json. Raises InputError for any other file, and for a file of an older version."""
     content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
     try:
         document = json.loads(content)

@@ -17,11 +17,11 @@ TIME = "time"
 
 
 def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | None = None) -> Any:
-    """Return the traces of one variant: a variable (trial, time) for each signal, with its unit.
+    """Return the traces of a variant: a variable (trial, time) for each signal, with its unit.
 
     Values are nan after the end of a trial, and at times at which only other trials have a row. Traces of other
     campaigns in the folder are omitted. Raises ImportError without xarray, KeyError for an unknown signal and if there
-    are no traces, InputError for a damaged one.
+    are no traces, InputError for a damaged trace.
     """
     if find_spec("xarray") is None:
         raise ImportError("traces needs xarray, which is not installed; pip install 'perilune[notebook]'")

@@ -1,1 +1,1 @@
-"""Statistical evidence from simulations that a required share satisfies a requirement."""
+"""Statistical evidence from simulations that a required share of them satisfies a requirement."""

@@ -1,8 +1,8 @@
 """Verdicts on a campaign with a fixed number of simulations, after Hanson and Beard (2010).
 
-A requirement asks that a ``share`` of all possible simulations satisfy it, shown with a ``confidence``; of ``flights``
-independent ones, ``failures`` did not. With the permitted failure rate p = 1 - share, failures are binomially
-distributed, and all results here are exact.
+A requirement demands that a ``share`` of all possible simulations satisfy it, shown with a ``confidence``. Of the
+``flights``, which are independent simulations, ``failures`` did not satisfy it. With the permitted failure rate p = 1 -
+share, failures are binomially distributed, and all results here are exact.
 
 J. M. Hanson and B. B. Beard, "Applying Monte Carlo Simulation to Launch Vehicle Design and Requirements Analysis",
 NASA/TP-2010-216447, 2010; C. J. Clopper and E. S. Pearson, Biometrika 26, 1934.
@@ -32,7 +32,8 @@ class AcceptanceVerdict(StrEnum):
 class Decision:
     """Verdict, with the numbers of simulations and failures at which it was reached.
 
-    ``consumer_risk`` is the probability, at the required share, of meeting the requirement with no more failures.
+    ``consumer_risk`` is the probability, at the required share, of meeting the requirement with no more failures than
+    these.
     """
 
     verdict: AcceptanceVerdict
@@ -47,7 +48,7 @@ def risk_limit(confidence: float) -> float:
 
 
 def consumer_risk(flights: int, failures: int, share: float) -> float:
-    """Return the risk of accepting: the probability of at most ``failures`` at the share (Hanson and Beard).
+    """Return the risk of accepting: the probability of at most ``failures`` at the required share (Hanson and Beard).
 
     For any smaller share the probability is smaller.
     """
@@ -65,9 +66,10 @@ def producer_risk(flights: int, failures: int, share: float) -> float:
 def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> AcceptanceVerdict:
     """Return the verdict on a campaign whose size did not depend on its outcome.
 
-    The requirement is met if the consumer's risk is at most 1 - ``confidence``, not met if the producer's is: Clopper
-    and Pearson's one-sided bounds of the share, each at that confidence, exclude the other side of the required one.
-    Below a confidence of 0.5 both would be possible, hence ValueError.
+    The requirement is met if the consumer's risk is at most 1 - ``confidence``, and not met if the producer's risk is.
+    This is equivalent to Clopper and Pearson's one-sided bounds of the share at that confidence, which then exclude
+    shares below, or above, the required share. Below a confidence of 0.5 both verdicts would be possible, which raises
+    ValueError.
     """
     if not 0.5 <= confidence < 1.0:
         raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
@@ -78,9 +80,9 @@ def decide_by_size(flights: int, failures: int, share: float, confidence: float)
 
 
 def acceptance_number(flights: int, share: float, confidence: float) -> int:
-    """Return the largest number of failures with which the requirement is met, -1 if it cannot be met."""
+    """Return the largest number of failures with which the requirement is met, or -1 if it cannot be met."""
     risk = risk_limit(confidence)
-    # the fewest that are no longer few enough, or exactly so
+    # fewest failures with a risk at or above the limit
     failures = int(scipy.stats.binom.ppf(risk, flights, 1.0 - share))
     while failures >= 0 and consumer_risk(flights, failures, share) > risk:
         failures -= 1
@@ -90,7 +92,7 @@ def acceptance_number(flights: int, share: float, confidence: float) -> int:
 def flights_needed(failures: int, share: float, confidence: float) -> int:
     """Return the smallest number of simulations that meets the requirement with this number of failures."""
     risk = risk_limit(confidence)
-    few, enough = failures, failures + 1  # with failures alone the risk is 1
+    few, enough = failures, failures + 1  # if every simulation fails, the risk is 1
     while consumer_risk(enough, failures, share) > risk:
         few, enough = enough, 2 * enough
     while enough - few > 1:
@@ -110,16 +112,16 @@ class FixedSize:
         self.confidence = confidence
 
     def decision(self, kept: np.ndarray) -> Decision:
-        """Return the verdict on all simulations; ``kept`` is True for those that satisfy the requirement."""
+        """Return the verdict on all simulations; ``kept`` is True for simulations that satisfy the requirement."""
         flights, failures = len(kept), int(np.count_nonzero(~np.asarray(kept, dtype=bool)))
         verdict = decide_by_size(flights, failures, self.share, self.confidence)
         return Decision(verdict, flights, failures, consumer_risk(flights, failures, self.share))
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """Return the number of simulations that count (all), and the permitted failures, -1 if none."""
+        """Return the number of simulations that count (all), and the permitted failures, or -1 if there are too few."""
         return flights, acceptance_number(flights, self.share, self.confidence)
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
-        """Return the number of further simulations a single campaign would have needed, by the failures among them."""
+        """Return the numbers of further simulations a single campaign would have needed, by the failures in them."""
         needed = {more: flights_needed(failures + more, self.share, self.confidence) for more in FURTHER}
         return {more: max(0, number - flights) for more, number in needed.items()}

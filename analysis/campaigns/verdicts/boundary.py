@@ -1,10 +1,10 @@
 """Stopping boundary of a count at interim looks, with its risk computed exactly by recursion over looks and counts.
 
-A count of events with probability ``rate`` each is observed repeatedly. The boundary is the count at or below which to
-stop, as improbably low: at every look the largest one for which the probability of having stopped so far, at that rate,
-stays within the risk that may be spent so far (Lan and DeMets, Biometrika 70, 1983; the recursion is that of Armitage,
-McPherson and Rowe, J. R. Statist. Soc. A 132, 1969, on counts). At a larger rate counts are as large or larger and stop
-no more often: the risk is valid for every larger rate.
+A count of events, each with probability ``rate``, is observed repeatedly. The boundary at a look is the count at or
+below which to stop, because so small a count is improbable. It is the largest count for which the probability of having
+stopped so far, at that rate, is within the risk that may be spent so far (Lan and DeMets, Biometrika 70, 1983; the
+recursion is that of Armitage, McPherson and Rowe, J. R. Statist. Soc. A 132, 1969, on counts). At a larger rate counts
+are equal or larger and stop no more often: the risk is valid for every larger rate.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ import numpy as np
 import scipy
 
 TAIL = 1e-18  # probability cut off at either end of a distribution: negligible against any risk
-SPENT = 1.0 - 1e-9  # share of the permitted risk: the rest is for rounding and for those tails
+SPENT = 1.0 - 1e-9  # fraction of the permitted risk that is spent; the remainder covers rounding and the tails
 
 
 def spending(flights: int, risk: float, half: int) -> float:
-    """Return the amount of ``risk`` to spend in the first ``flights``: half of it in ``half``, all in the limit."""
+    """Return the risk that may be spent in the first ``flights``: half of it in ``half`` flights, all in the limit."""
     return SPENT * risk * flights / (flights + half)
 
 
 @dataclass(frozen=True)
 class InterimLook:
-    """Interim look: counts up to ``most`` stop.
+    """Interim look, which stops at counts up to ``most``.
 
-    ``spent`` is the probability of having stopped at an earlier look; ``probabilities`` are those of reaching this look
-    with the counts from ``lowest`` on.
+    ``spent`` is the probability of having stopped at an earlier look. ``probabilities`` are the probabilities of
+    reaching this look with the counts from ``lowest`` on.
     """
 
     flights: int
@@ -39,14 +39,14 @@ class InterimLook:
     probabilities: np.ndarray
 
     def risk(self, count: int) -> float:
-        """Return the probability of having stopped before, or of a count here of at most ``count``."""
+        """Return the probability of having stopped before, or of a count of at most ``count`` at this look."""
         return self.spent + float(self.probabilities[: max(0, count - self.lowest + 1)].sum())
 
 
 class Boundary:
-    """Stopping counts, look by look; a new look comes after all earlier ones and does not change them.
+    """Stopping counts, look by look; a new look follows all earlier looks and does not change them.
 
-    ``spend`` returns the risk that may be spent in a number of simulations, such as `spending`; it must not decrease.
+    ``spend`` returns the risk that may be spent in a number of simulations, as `spending` does; it must not decrease.
     """
 
     def __init__(self, rate: float, spend: Callable[[int], float]) -> None:

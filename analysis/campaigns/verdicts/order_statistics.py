@@ -2,11 +2,11 @@
 
 Memory does not grow with the column. The bits of a double, mapped to an unsigned integer of the same order, are
 processed in four groups of sixteen bits. In each pass, values with the prefix found so far are counted by their next
-sixteen bits, until one value is left: radix selection.
+sixteen bits, until a single value is left: radix selection.
 
 The p-quantile of n values, in tables, figures and verdicts, is their order statistic k = ceil(p n), the least value
-that a fraction p of all does not exceed: the inverse of the empirical distribution function (Hyndman and Fan 1996, The
-American Statistician 50, definition 1; numpy's "inverted_cdf"). nan does not count, infinite values do.
+that a fraction p of all values does not exceed: the inverse of the empirical distribution function (Hyndman and Fan
+1996, The American Statistician 50, definition 1; numpy's "inverted_cdf"). nan does not count, infinite values do.
 
 A one-sided tolerance bound is a value that a share of all simulations does not exceed, for any distribution. The
 share's quantile is exceeded as often as a requirement with this share may fail. The (k + 1)-th worst simulation is
@@ -21,10 +21,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
-Blocks = Callable[[], Iterable[np.ndarray]]  # a column, from its beginning whenever it is called
+Blocks = Callable[[], Iterable[np.ndarray]]  # returns the blocks of a column, from its beginning on every call
 
-HELD = 100_000  # values that are simply sorted
-DIGIT = 16  # bits
+HELD = 100_000  # most values that are sorted instead
+DIGIT = 16  # bits counted in a pass
 SIGN = np.uint64(1 << 63)
 
 
@@ -66,7 +66,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 
 def _order_bits(values: np.ndarray) -> np.ndarray:
-    """Return doubles as unsigned integers of the same order; both zeros are the same number."""
+    """Return doubles as unsigned integers of the same order; both zeros yield the same integer."""
     bits = (values + 0.0).view(np.uint64)
     return np.where(bits & SIGN, ~bits, bits ^ SIGN)
 
@@ -83,9 +83,10 @@ def quantile_rank(fraction: float, count: int) -> int:
 
 
 def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
-    """Return quantiles over the first axis of an array, one row for each fraction; nan if all values are nan.
+    """Return quantiles over the first axis of an array, a row for each fraction; nan if all values are nan.
 
-    The first length of ``values`` is replaced by ``len(fractions)``. Raises as `quantile_rank`.
+    The result has the shape of ``values``, with ``len(fractions)`` as its first length. Raises ValueError as
+    `quantile_rank` does.
     """
     if not len(values):
         return np.full((len(fractions), *values.shape[1:]), np.nan)
@@ -96,9 +97,9 @@ def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
 
 
 def column_quantiles(column: Blocks, known: int, fractions: Sequence[float]) -> list[float]:
-    """Return quantiles of a column read in blocks, of which ``known`` values are not nan; nan if there are none.
+    """Return quantiles of a column read in blocks; nan if the number ``known`` of values other than nan is 0.
 
-    Memory does not grow with the column. Raises as `quantile_rank`.
+    Memory does not grow with the column. Raises ValueError as `quantile_rank` does.
     """
     ranks = [quantile_rank(fraction, known) for fraction in fractions]
     return order_statistics(column, ranks) if known else [math.nan] * len(ranks)
@@ -114,8 +115,8 @@ def tolerance_bound(column: Blocks, flights: int, permitted: int, upper: bool) -
     """Return the (``permitted`` + 1)-th largest, or smallest, of the first ``flights`` values of a metric.
 
     ``permitted`` is the number of failures with which these simulations meet a requirement of the bound's share and
-    confidence; None is returned if it is negative, since there are too few. Non-finite values count as worst: the bound
-    is infinite if the share cannot be reached without them.
+    confidence. If it is negative, there are too few simulations, and None is returned. Non-finite values count as
+    worst: the bound is infinite if the share cannot be reached without them.
     """
     if permitted < 0:
         return None

@@ -16,12 +16,12 @@ OPTION = "`scheduler`"
 ANSWER = 10.0  # s, time for a scheduler to answer
 FIRST_WORKER = 30.0  # s, time for a first worker to join
 LOGS = ("distributed", "distributed.client")  # loggers with separate levels
-LARGEST = "1 TB"  # size above which dask warns of a large message: the campaign is sent only once
+LARGEST = "1 TB"  # size above which dask warns of a large message; it need not, since the campaign is sent only once
 
 
 @contextmanager
 def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
-    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None if there is none.
+    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None if it is None.
 
     ``workers`` and ``engine`` configure this machine, and are rejected with an address. Raises InputError if
     distributed is not installed, if the scheduler does not answer or has no workers, or if a worker has another version
@@ -42,7 +42,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Silence the log of distributed, whose errors Perilune reports in one line."""
+    """Silence the log of distributed, since Perilune reports its errors in one line."""
     logs = [logging.getLogger(name) for name in LOGS]
     levels = [log.level for log in logs]
     for log in logs:

@@ -1,4 +1,4 @@
-"""Campaign as sent to remote workers, and the check that they have the same Perilune, on which the bits depend."""
+"""Campaign as sent to remote workers, and the check that workers have the same Perilune, on which the bits depend."""
 
 from __future__ import annotations
 
@@ -28,14 +28,17 @@ def identity() -> Identity:
     """Return the version of this Perilune, and the SHA-256 of its sources."""
     total = hashlib.sha256()
     for room in ROOMS:
-        place = (PACKAGE / room).resolve()  # a link in a checkout
+        place = (PACKAGE / room).resolve()  # the folder may be a link in a checkout
         for path in sorted(place.rglob("*.py")):
             total.update(path.relative_to(place).as_posix().encode() + b"\0" + path.read_bytes())
     return version("perilune"), total.hexdigest()
 
 
 def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str) -> None:
-    """Raise InputError unless a worker has the same Perilune; ``theirs`` is an exception if it has none."""
+    """Raise InputError unless a worker has the same Perilune.
+
+    ``theirs`` is the worker's identity, or an exception if it has no Perilune.
+    """
     if isinstance(theirs, BaseException):
         problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
     elif theirs[0] != ours[0]:
@@ -53,9 +56,9 @@ def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str)
 class Sent:
     """Campaign for a worker that cannot access the sender's files.
 
-    ``contents`` are the files by hash; ``draws`` is draws.parquet, empty for counter-based draws; ``log`` is the level
-    of the FMUs' messages. With ``in_child`` all simulations run in children of the workers. ``key`` identifies the
-    campaign, ``identity`` the sender's Perilune.
+    ``contents`` contains the files by hash. ``draws`` is the content of draws.parquet, empty for counter-based draws.
+    ``log`` is the level of the FMUs' messages. With ``in_child`` all simulations run in children of the workers.
+    ``key`` identifies the campaign, ``identity`` the sender's Perilune.
     """
 
     key: str
@@ -68,7 +71,7 @@ class Sent:
 
 
 def make_sent(campaign: LoadedCampaign) -> Sent:
-    """Return a campaign as sent to workers: from its folder, or from memory if it has none. Raises InputError."""
+    """Return a campaign as sent to workers, from its folder, or from memory if it has no folder. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
         contents = {name: content_path(folder / CONTENTS, name).read_bytes() for name in manifest.names()}

@@ -1,4 +1,4 @@
-"""Simulates shards on a cluster in tasks of some seconds, which are repeated when workers are lost."""
+"""Simulation of shards on a cluster, in tasks of some seconds that are repeated if workers are lost."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from . import work
 from .sent import make_sent
 from .tasks import RetryQueue, Task, TaskSplitter, WorkersDiedError
 
-WAITING = 2  # tasks for each thread: one runs, one waits
+WAITING = 2  # tasks for each thread: one running, one waiting
 LOOK_UP = 1.0  # s, between checks of the workers
-WITHOUT_WORKERS = 60.0  # s, time for workers to return
+WITHOUT_WORKERS = 60.0  # s, time without workers before a campaign is aborted
 
 
 class Cluster:
     """Workers of a scheduler to which a client of distributed is connected; a call simulates shards.
 
-    A task whose worker dies is reassigned as often as the scheduler permits, then submitted again in two halves. A
-    campaign is aborted only if all remaining tasks are single trials whose workers keep dying.
+    A task whose worker died is reassigned as often as the scheduler permits, then submitted again in two halves. A
+    campaign is aborted only if all remaining tasks are single trials whose workers die repeatedly.
     """
 
     def __init__(self, client: Any, address: str) -> None:
@@ -35,7 +35,7 @@ class Cluster:
         self._address = address
 
     def __call__(self, campaign: LoadedCampaign, shards: Sequence[int]) -> Generator[tuple[int, dict[str, TrialTable]]]:
-        """Simulate shards of a campaign; yield each one's number and trials by variant on completion, in any order.
+        """Simulate shards of a campaign; yield each shard's number and trials by variant on completion, in any order.
 
         Raises WorkersDiedError, and exceptions from the preparation of a simulation in a worker.
         """
@@ -54,7 +54,7 @@ class Cluster:
             raise InputError("`scheduler`", "", problem, "install this version in the worker's environment") from error
         except (CancelledError, OSError) as error:
             if client.status == "running" and not isinstance(error, (CancelledError, CommClosedError)):
-                raise  # a worker's disk is full, say
+                raise  # for instance because a worker's disk is full
             raise WorkersDiedError(f"the scheduler {self._address} no longer answers") from error
         finally:
             if tasks.under_way:
@@ -80,7 +80,7 @@ class Cluster:
 
     def _end(self, futures: list[Any], key: str) -> None:
         """Cancel tasks, and end running simulations at their next communication points."""
-        with suppress(Exception):  # the cluster itself may have ended
+        with suppress(Exception):  # the cluster may have ended
             self._client.cancel(futures, force=True)
         halting = threading.Thread(target=self._halt, args=(key,), daemon=True)  # a worker that hangs does not answer
         halting.start()
@@ -92,7 +92,7 @@ class Cluster:
 
 
 class ShardTasks:
-    """Tasks for some shards of a campaign: ``under_way`` by future, pending ones, and completed trials."""
+    """Tasks for some shards of a campaign: submitted tasks ``under_way`` by future, pending tasks, completed trials."""
 
     def __init__(self, client: Any, campaign: LoadedCampaign, shards: Sequence[int]) -> None:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
@@ -106,11 +106,11 @@ class ShardTasks:
         self._send()
 
     def _send(self) -> None:
-        """Send the campaign to the cluster, which loses it if every worker that has it is lost."""
+        """Send the campaign to the cluster, which loses it when the last worker with the campaign is lost."""
         self._campaign = self._client.submit(_itself, self._sent, pure=False)
 
     def submit(self, threads: int) -> bool:
-        """Submit tasks for this many threads; return True if any are running or queued."""
+        """Submit enough tasks for this number of threads; return True if any task is running or queued."""
         for _ in range(WAITING * max(threads, 1) - len(self.under_way)):
             task = tuple(self._portions.next(max(threads, 1))) or self._repeated.next()
             if task:
@@ -134,7 +134,7 @@ class ShardTasks:
                 yield piece.shard, whole
 
     def _repeat(self, task: Task, error: Any) -> None:
-        """Repeat a task whose workers died. Raises WorkersDiedError if only tasks that kill workers are left."""
+        """Repeat a task whose workers died. Raises WorkersDiedError if only trials that kill workers are left."""
         if error.task == self._campaign.key:
             self._send()
         self._repeated.add(task)
@@ -148,7 +148,7 @@ def _itself(sent: Any) -> Any:
 
 
 def _what_ends_them(tasks: Sequence[Task]) -> str:
-    """Return a description of the tasks, each of one trial, whose workers keep dying."""
+    """Return a description of tasks, each of a single trial, whose workers die repeatedly."""
     names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
     return f"workers ended repeatedly during {names[0]}{more}"

@@ -1,4 +1,4 @@
-"""Tasks for a cluster: each with trials for some seconds; tasks given up by a scheduler are split."""
+"""Tasks for a cluster, each with trials for some seconds; tasks abandoned by a scheduler are split."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from ...folder.numbering import Numbering
 
-MOST_DEATHS = 3  # deaths of workers with one trial, before it counts as the cause
-FIRST = 4  # trials of a task while their duration is unknown
-LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long against the 10 ms that sending costs
+MOST_DEATHS = 3  # deaths of workers with a single trial before the trial counts as the cause
+FIRST = 4  # trials in a task while their duration is unknown
+LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little is lost with a worker, and sending a task costs only 10 ms
 QUICKEST = 1e-6  # s, least measurable duration of a trial
-ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
+ROUNDS = 2  # least number of remaining tasks for each thread, so that all threads end at about the same time
 
 
 class WorkersDiedError(RuntimeError):
@@ -40,7 +40,7 @@ class TaskSplitter:
         self._seconds[piece.variant] = seconds / len(piece.trials)
 
     def next(self, threads: int) -> list[TrialSpan]:
-        """Return the next task for ``threads`` threads, empty if none is left."""
+        """Return the next task for ``threads`` threads; an empty task if no trials are left."""
         slowest = max(self._seconds.values(), default=0.0)
         budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
         pieces: list[TrialSpan] = []
@@ -63,7 +63,7 @@ class TaskSplitter:
 
 
 def halve(pieces: Sequence[TrialSpan]) -> list[tuple[TrialSpan, ...]]:
-    """Return a task's trials as two tasks, or as one if there is only one trial."""
+    """Return a task's trials as two tasks, or as one task if there is only one trial."""
     first = sum(len(piece.trials) for piece in pieces) // 2
     parts: tuple[list[TrialSpan], list[TrialSpan]] = ([], [])
     for piece in pieces:
@@ -79,25 +79,25 @@ Task = tuple[TrialSpan, ...]
 
 
 class RetryQueue:
-    """Queue of tasks that were given up, split in half each time to isolate trials that kill workers."""
+    """Queue of abandoned tasks, split in half each time to isolate trials that kill workers."""
 
     def __init__(self) -> None:
         self._waiting: deque[Task] = deque()
         self._times: dict[Task, int] = {}
 
     def add(self, task: Task) -> None:
-        """Add a task that was given up, in two halves."""
+        """Add an abandoned task in two halves."""
         times = self._times.pop(task, 0) + 1
         parts = halve(task)
         self._waiting += parts
         self._times |= dict.fromkeys(parts, times if len(parts) == 1 else min(times, OWN))
 
     def next(self) -> Task:
-        """Remove and return the task that has waited longest, empty if there is none."""
+        """Remove and return the task that has waited longest; an empty task if there is none."""
         return self._waiting.popleft() if self._waiting else ()
 
     def single_trials_left(self, under_way: Iterable[Task]) -> list[Task]:
-        """Return all remaining tasks if each is a single trial that was given up often enough; else an empty list."""
+        """Return all remaining tasks if each is a single trial that was abandoned often enough; else an empty list."""
         left = [*self._waiting, *under_way]
         worn = all(len(halve(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)
         return left if worn else []

@@ -1,4 +1,4 @@
-"""Work of a cluster's worker: stores files by hash in its folder, and simulates portions of campaigns.
+"""Work of a cluster's worker, which stores files by hash in its folder and simulates portions of campaigns.
 
 The campaign is restored from these files by the code that restores a campaign's folder.
 """
@@ -22,8 +22,8 @@ from ..plan_manifest import restore
 from .sent import Sent, identity, refuse_others
 from .tasks import TrialSpan
 
-FOLDER = "perilune"  # within the worker's folder, which dask removes
-MOST_LOADED = 3  # campaigns whose simulations are kept for the next task
+FOLDER = "perilune"  # in the worker's folder, which dask removes
+MOST_LOADED = 3  # most campaigns that stay loaded for the next task
 _looking = threading.Lock()
 _loaded: dict[str, _LoadedCampaign] = {}  # by key, most recently used last
 
@@ -34,7 +34,7 @@ class HaltedError(RuntimeError):
 
 @dataclass
 class _LoadedCampaign:
-    """Campaign loaded in this process: its plan, with idle and busy flyers, one for each thread that has needed one."""
+    """Campaign loaded in this process: its plan, with idle and busy flyers, at most one for each thread."""
 
     plan: BatchPlan
     idle: list[Flyer] = field(default_factory=list)
@@ -42,9 +42,9 @@ class _LoadedCampaign:
 
 
 def fly(sent: Sent, task: Sequence[TrialSpan]) -> list[tuple[TrialTable, float]]:
-    """Simulate some trials; return those of each piece, with the seconds they took without preparation.
+    """Simulate some trials; return the trials of each span, with the seconds they took without preparation.
 
-    Raises InputError in a worker with another version of Perilune, as workers may join at any time.
+    Raises InputError in a worker with another version of Perilune, since workers may join at any time.
     """
     from distributed import get_worker
 
@@ -58,7 +58,7 @@ def fly(sent: Sent, task: Sequence[TrialSpan]) -> list[tuple[TrialTable, float]]
             began = time.perf_counter()
             try:
                 trials = flyer.fly(piece.variant, piece.trials)
-            except KeyboardInterrupt:  # which would end the worker
+            except KeyboardInterrupt:  # it would end the worker
                 raise HaltedError(sent.key) from None
             simulated.append((trials, time.perf_counter() - began))
     return simulated
@@ -91,7 +91,7 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
 
 
 def _campaign(sent: Sent, folder: Path) -> _LoadedCampaign:
-    """Return the campaign as loaded in this process; close the oldest unused ones if too many are loaded."""
+    """Return the campaign as loaded in this process; close the oldest unused campaigns if too many are loaded."""
     if sent.key in _loaded:
         _loaded[sent.key] = _loaded.pop(sent.key)
         return _loaded[sent.key]
