@@ -51,7 +51,7 @@ def task_size(trials: int, workers: int, threads: bool) -> int:
 
 
 class ShardAssembler:
-    """Assembles shards from portions that arrive in any order, and returns a shard once all of its trials are present."""
+    """Assembles shards from portions that arrive in any order, and returns a shard once all its trials are present."""
 
     def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:
         self._numbering = numbering
