@@ -60,7 +60,7 @@ class AttachedDocument(TypedDict):
 
 
 class SourceDocument(TypedDict, total=False):
-    """Campaign file, with the files that it extends; ``position`` is the place of its own entries among theirs.
+    """Campaign file, with the files that it extends; its entries are merged after ``position`` of these files.
 
     ``attached`` contains the tables of its lookups, by the paths that it states.
     """
