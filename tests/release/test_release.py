@@ -145,4 +145,4 @@ def test_the_source_distribution(tmp_path):
     check_page(page)
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert re.findall("^#.*", page, re.MULTILINE) == re.findall("^#.*", readme, re.MULTILINE)
-    assert "its result displays itself in a notebook" in page
+    assert "whose result is displayed in a notebook" in page

@@ -74,7 +74,7 @@ def test_no_random_errors_and_all_of_them(system):
 def test_the_documents_state_the_defaults():
     page = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
     ((usual, systems, other),) = re.findall(
-        r"By default values are those of `(\w+)\.ssv`; in (.*) those of `(\w+)\.ssv`\.", page
+        r"Default values equal `(\w+)\.ssv`; only in (.*) they equal `(\w+)\.ssv`\.", page
     )
     assert dict.fromkeys(DEFAULTS, usual) | dict.fromkeys(re.findall(r"`(\w+)`", systems), other) == DEFAULTS
     for system, default in DEFAULTS.items():
