@@ -213,7 +213,7 @@ def none_at_all(copy):
 
 
 OTHERS = {
-    "changed": (changed_source, "has other sources of perilune"),
+    "changed": (changed_source, "with different source files"),
     "missing": (none_at_all, "cannot load perilune: ModuleNotFoundError"),
 }
 
