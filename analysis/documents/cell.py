@@ -119,7 +119,7 @@ class Faint(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """Several cells in one, below each other; with ``is_line_on_paper`` side by side on paper."""
+    """Several cells in one, below each other; ``is_line_on_paper`` puts them side by side on paper."""
 
     content: Sequence[Cell]
     is_line_on_paper: bool = False

@@ -75,7 +75,7 @@ class Service:
         return StreamingResponse(selected_csv(columns.campaign, mask, names), media_type="text/csv", headers=headers)
 
     async def trial(self, request: Request) -> Response:
-        """Answer with all numbers of the trial in one row."""
+        """Answer with all numbers of the trial in a row of the campaign."""
         columns, names = self._campaign(request)
         row = request.path_params["row"]
         if row >= columns.campaign.rows:

@@ -54,7 +54,7 @@ class Law(Documented, laws.NetworkOperator):
         _write_graph(self, Path(path))
 
     def plot(self) -> Plot:
-        """Plot the law's graph."""
+        """Plot the graph of the law."""
         from ..documents.chart.plot import plot_charts  # which imports matplotlib
 
         chart, width, height = law_chart(self)

@@ -68,7 +68,8 @@ class System:
             self.set(f"{name}.{parameter}", setting)
 
     def connect(self, source: str, *sinks: str) -> None:
-        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; a system connector has no component.
+        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; a connector of the system is stated by its
+        name.
 
         A system connector must be declared by `connector` first.
         """

@@ -11,8 +11,8 @@ MUCH = 2  # ratio of feedback edges from which the description's order is not us
 def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
     """Return the positions of blocks numbered from 0; an arc is a pair of blocks for each edge.
 
-    By default the blocks keep the order of the description, which reflects how its author thinks of the system. The
-    order of `short_loops` is returned if the former has at least `MUCH` times as many feedback edges.
+    By default the blocks keep the order of the description, which reflects how its author thinks of the system. If this
+    order has at least `MUCH` times as many feedback edges as that of `short_loops`, the latter is returned.
     """
     other = short_loops(count, arcs)
     mine = list(range(count))

@@ -13,7 +13,7 @@ WIDEST = 1360.0  # largest width of a row of several columns
 
 @dataclass
 class BoxColumn:
-    """Boxes one above the other, between the abscissas ``left`` and ``right``, where no other box is."""
+    """Boxes one above the other between the abscissas ``left`` and ``right``, between which there is no other box."""
 
     left: float
     right: float

@@ -34,7 +34,7 @@ def plotted_signals(signals: Iterable[SignalDifference]) -> tuple[Vectors, int]:
 
 
 def difference_legend(vectors: Vectors) -> list[LegendEntry]:
-    """Return the looks of both runs, and the axes or indices of the elements of each colour."""
+    """Return the legend: the looks of both runs, and the axes or indices of the elements of each colour."""
     runs = [
         LegendEntry(Look(INK, dashes, ""), [name]) for dashes, name in zip(DASHES, ("first", "second"), strict=False)
     ]

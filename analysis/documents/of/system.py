@@ -56,7 +56,7 @@ def diagram_document(
 
 
 def block_table(system: DiagramBlock) -> Table:
-    """Return the blocks with their FMUs and their unconnected outputs, which are not drawn."""
+    """Return the table of blocks with their FMUs and their unconnected outputs, which are not drawn."""
     rows: list[Sequence[Cell]] = []
     for block in system.all_blocks():
         if block is system:
@@ -70,7 +70,7 @@ def block_table(system: DiagramBlock) -> Table:
 
 
 def connection_table(system: DiagramBlock) -> Table:
-    """Return the edges of the diagram: ends, number of connections, unit, conversion."""
+    """Return the table of the diagram's edges: ends, number of connections, unit, conversion."""
     ports = {key: port for block in system.all_blocks() for key, port in block.ports.items()}
     rows: list[Sequence[Cell]] = []
     for edge in system.all_edges():
@@ -81,7 +81,7 @@ def connection_table(system: DiagramBlock) -> Table:
 
 
 def parameter_table(prepared: PreparedSystem, system: DiagramBlock) -> Table:
-    """Return the parameters that a system passes to its blocks, with their values; a dash if no value is set."""
+    """Return the table of parameters that a system passes to its blocks, with values, or a dash if none is set."""
     targets: dict[str, list[str]] = defaultdict(list)
     for block in system.all_blocks():
         for source, target in (pair for edge in block.parameters for pair in edge.pairs):

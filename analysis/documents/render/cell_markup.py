@@ -99,7 +99,7 @@ def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
 
 
 def _inline_markup(part: Inline) -> Markup:
-    """Return the markup of an inline element; a verdict is coloured itself, in a table its cell is."""
+    """Return the markup of an inline element; it colours a verdict, whereas in a table the cell is coloured."""
     if isinstance(part, VerdictCell):
         return Markup('<span class="verdict {}">{}</span>').format(part.grade, part.verdict)
     return cell_markup(part)

@@ -54,7 +54,7 @@ class LoopStudy:
         self.nyquist = np.pi / self.seconds
 
     def measure(self) -> None:
-        """Run the frequency-response test, from well below the crossover on."""
+        """Run the frequency-response test; its lowest line is well below the crossover."""
         try:
             if self.model is not None:
                 self._measure_from(LINES_FROM * self.model.lowest)

@@ -59,7 +59,7 @@ def driver_sections(content: BatchContent) -> list[Section]:
 
 
 def failure_section(content: BatchContent) -> Section:
-    """Return failures over the inputs with the most influence on success, and the influence of all inputs."""
+    """Return the section of failures over the most influential inputs, and of the influence of all inputs."""
     rates = {variant: entry.success_rate for variant, entry in content.batch.summary.items()}
     nodes: list[Node] = []
     for rate, text in ((1.0, "no failures"), (0.0, "all trials failed, so no influence can be computed")):

@@ -14,7 +14,7 @@ from .embedded_trials import trials_document, trials_notes
 
 
 def distribution_section(content: BatchContent) -> Section:
-    """Return distributions of the metrics of success and requirements, and the trials that their marks represent."""
+    """Return the section of distributions of the metrics of success and requirements, with the trials of marks."""
     batch = content.batch
     samples = {variant: sample.note for variant, sample in batch.plotted.items() if sample.note}
     nodes: list[Node] = [
@@ -39,7 +39,7 @@ def distribution_section(content: BatchContent) -> Section:
 
 
 def other_distribution_sections(content: BatchContent) -> list[Section]:
-    """Return distributions of all other metrics, constant metrics, and metrics without a finite value."""
+    """Return the section on all other metrics: distributions, constant metrics, and metrics without a finite value."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
     nodes: list[Node] = [
@@ -54,7 +54,7 @@ def other_distribution_sections(content: BatchContent) -> list[Section]:
 
 
 def distribution_figures(content: BatchContent, metrics: Sequence[Metric]) -> Figures:
-    """Return the empirical distributions of metrics over all trials, with one legend."""
+    """Return figures of the empirical distributions of metrics over all trials, with one legend."""
     numbers = {metric: number for number, metric in enumerate(content.campaign.metrics)}
     styles = list(content.styles.values())
 

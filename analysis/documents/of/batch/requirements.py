@@ -15,7 +15,7 @@ from ..campaign.verdict_table import GRADES
 
 
 def requirement_sections(summary: Summary, campaign: Campaign) -> list[Section]:
-    """Return the verdicts on each requirement by variant; none if there are no requirements."""
+    """Return the section of verdicts on each requirement by variant; no section without requirements."""
     verdicts = requirement_rows(summary)
     if not verdicts:
         return []

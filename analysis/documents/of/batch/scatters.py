@@ -108,7 +108,7 @@ def _scatter_figures(
 def scatter_chart(
     variant: str, success: np.ndarray, scatter: Scatter, pair: tuple[Metric, Metric], x_ends: Ends, y_ends: Ends
 ) -> Chart:
-    """Return the trials of a ``variant`` over two metrics; ends of axes are as displayed."""
+    """Return the chart of a variant's trials over two metrics; the ends of axes are in displayed units."""
     radius = _radius(scatter, pair[0])
     columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
     return Chart(
@@ -171,7 +171,7 @@ def influence_on_success(batch: CampaignResult, variant: str) -> dict[str, float
 
 
 def failure_figures(batch: CampaignResult) -> list[Figure]:
-    """Return failures and successes over the two most influential inputs of each variant that has both."""
+    """Return a figure of failures and successes over the two most influential inputs for each variant that has both."""
     figures = []
     for index, variant in enumerate(batch.rows):
         names = list(influence_on_success(batch, variant))[:2]
@@ -199,7 +199,7 @@ def _inputs(batch: CampaignResult, variant: str, names: Sequence[str]) -> tuple[
 
 
 def failure_chart(batch: CampaignResult, variant: str, names: Sequence[str]) -> Chart:
-    """Return the trials of a variant over one or two dispersed inputs."""
+    """Return the chart of a variant's trials over one or two dispersed inputs."""
     x, y = _inputs(batch, variant, names)
     columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")
     return Chart(

@@ -60,7 +60,7 @@ def sort_metrics(batch: CampaignResult) -> tuple[list[Metric], list[tuple[Metric
 def distribution_chart(
     metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look], half_range: float = 0.0
 ) -> Chart:
-    """Return the empirical distributions of a metric in several series, in SI; at least one has a finite number.
+    """Return the chart of a metric's empirical distributions in several series, in SI; at least one number is finite.
 
     Unless ``half_range`` is 0, the abscissa extends at least this far (as displayed) to either side of 0.
     """
@@ -164,7 +164,7 @@ def rates_figure(batch: CampaignResult, published: Mapping[str, float] | None = 
 
 
 def rates_chart(batch: CampaignResult, published: Mapping[str, float]) -> Chart:
-    """Return a lane for each variant: a mark at its success rate (%), a line across the interval, and their text.
+    """Return the chart of success rates (%): a lane for each variant with the rate, its interval, and both as text.
 
     ``published`` are rates (0 to 1) for comparison, shown as rings. With long names the text omits the interval.
     """

@@ -26,7 +26,7 @@ def metric_table(
     styles: Mapping[str, Look] = NO_STYLES,
     by: str | None = None,
 ) -> Table:
-    """Return statistics of metrics over successful trials (``metrics``) or all trials (``metrics_all``)."""
+    """Return the table of metrics' statistics over successful trials (``metrics``) or all trials (``metrics_all``)."""
     body: list[Sequence[Cell] | Row | RowHeading] = []
     for metric in metrics:
         body.append(metric_heading(metric))

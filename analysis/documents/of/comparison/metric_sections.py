@@ -24,7 +24,7 @@ from .pairs import metric_pair_table, metric_pairs, rate_pair_table
 
 
 def distribution_section(content: ComparisonContent) -> Section:
-    """Return the distributions of the metrics of success and requirements."""
+    """Return the section of distributions of the metrics of success and requirements."""
     nodes = missing_nodes(content, "propellant")
     if content.judged:
         nodes += [_distributions(content, content.judged), distribution_note(of_successes=True)]
@@ -32,7 +32,7 @@ def distribution_section(content: ComparisonContent) -> Section:
 
 
 def other_distribution_section(content: ComparisonContent) -> list[Section]:
-    """Return the distributions of other metrics; constant metrics and metrics without a finite value as text."""
+    """Return the section on other metrics: distributions, constant metrics, and metrics without a finite value."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
     nodes: list[Node] = [
@@ -52,7 +52,7 @@ def _distributions(content: ComparisonContent, metrics: Sequence[Metric]) -> Fig
 
 
 def rate_section(content: ComparisonContent) -> Section:
-    """Return the rates of success and of Boolean metrics."""
+    """Return the section of the rates of success and of Boolean metrics."""
     rows = variant_rows(content.comparison.summary)
     note = (
         "Clopper-Pearson exact 95 % confidence intervals. A metric that is true or false in every trial is a rate; a "
@@ -63,7 +63,7 @@ def rate_section(content: ComparisonContent) -> Section:
 
 
 def metric_section(content: ComparisonContent) -> Section:
-    """Return the statistics of metrics."""
+    """Return the section of the statistics of metrics."""
     nodes: list[Node] = [Missing("the campaign declares only metrics that are rates")]
     if content.comparison.metrics:
         note = (
@@ -83,7 +83,7 @@ def _metric_tables(content: ComparisonContent, rows: Sequence[SummaryRow], by: s
 
 
 def group_section(content: ComparisonContent) -> list[Section]:
-    """Return rates and metrics of groups of trials, if there are any."""
+    """Return the section of rates and metrics by group of trials; no section without groups."""
     compared = content.comparison
     if compared.group is None:
         return []
@@ -98,7 +98,7 @@ def group_section(content: ComparisonContent) -> list[Section]:
 
 
 def pair_section(content: ComparisonContent) -> Section:
-    """Return differences of rates and metrics between pairs of variants, trial by trial."""
+    """Return the section of differences of rates and metrics between pairs of variants, trial by trial."""
     heading = "Paired comparison"
     if not content.comparison.pairs:
         return Section(heading, [Missing("there is only one variant: no pairs")], is_folded=True)

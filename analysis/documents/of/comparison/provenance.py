@@ -16,7 +16,7 @@ DIGITS = 6
 
 
 def parameter_section(comparison: CampaignComparison) -> Section:
-    """Return the range of each dispersed parameter over the trials."""
+    """Return the section with the range of each dispersed parameter over the trials."""
     rows: list[Sequence[Cell]] = [
         (name, *(Quantity(float(each), digits=DIGITS) for each in (values.min(), values.mean(), values.max())))
         for name, values in comparison.first.draws.items()
@@ -30,7 +30,7 @@ def parameter_section(comparison: CampaignComparison) -> Section:
 
 
 def provenance_section(comparison: CampaignComparison) -> Section:
-    """Return campaign, parameters and digests of each batch."""
+    """Return the section with campaign, parameters and digests of each batch."""
     groups = [Group(name, _batch_nodes(batch.document)) for name, batch in comparison.batches.items()]
     return Section("Provenance", groups, is_folded=True)
 

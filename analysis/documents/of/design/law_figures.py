@@ -50,7 +50,7 @@ def law_diagram(law: NetworkOperator) -> Diagram:
 
 
 def law_chart(law: NetworkOperator) -> tuple[Chart, float, float]:
-    """Return the graph of the nodes on which outputs depend, without axes, and its width and height (pt)."""
+    """Return a chart without axes of the nodes on which outputs depend, and its width and height (pt)."""
     nodes = {node.number: node for node in nodes_of(expression_tree(law.matrix))}
     edges = [(other.number, node.number) for node in nodes.values() for _, other in node.terms]
     layout = GraphLayout(list(nodes), edges)

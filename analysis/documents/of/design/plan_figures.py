@@ -71,7 +71,7 @@ def time_figures(series: Sequence[Series], pitch: str) -> list[Figure]:
 
 
 def pitch_chart(series: Sequence[Series]) -> Chart:
-    """Return the thrust angle (deg) of each plan over time (s)."""
+    """Return the chart of the thrust angle (deg) of each plan over time (s)."""
     curves = [
         line(one.path.middle, np.degrees(one.path.pitch), one.look.colour, dashes=one.look.lengths, name=one.name,
              unit="deg")
@@ -82,7 +82,7 @@ def pitch_chart(series: Sequence[Series]) -> Chart:
 
 
 def throttle_chart(series: Sequence[Series]) -> Chart:
-    """Return the throttle of each plan over time (s), constant within an interval."""
+    """Return the chart of the throttle of each plan over time (s), constant within an interval."""
     curves = [
         line(one.path.time, np.append(one.path.throttle, one.path.throttle[-1]), one.look.colour,
              dashes=one.look.lengths, name=one.name, steps=True)
@@ -96,7 +96,7 @@ def _time_axis(series: Sequence[Series]) -> Axis:
 
 
 def curve_figures(study: HoverStudy, series: Sequence[Series]) -> list[Figure]:
-    """Return propellant over duration and over distance, with marks of the plans. Raises `PlanError`."""
+    """Return figures of propellant over duration and over distance, with a mark for each plan. Raises `PlanError`."""
     complete = study.with_curves()
     assert complete.durations is not None
     assert complete.distances is not None
@@ -116,7 +116,7 @@ def _curve_figure(label: str, name: str, curve: PropellantCurve, quantity: str, 
 
 
 def curve_chart(curve: PropellantCurve, quantity: str, points: Sequence[PlanPoint]) -> Chart:
-    """Return propellant over one quantity, with a mark for each plan."""
+    """Return the chart of propellant over one quantity, with a mark for each plan."""
     abscissas = np.append(curve.at, [point.at for point in points])
     ordinates = np.append(curve.propellant, [point.propellant for point in points])
     marks = [mark(one.at, one.propellant, marker(one.look.marker, MARK, one.look.colour)) for one in points]
@@ -129,7 +129,7 @@ def curve_chart(curve: PropellantCurve, quantity: str, points: Sequence[PlanPoin
 
 
 def path_figure(series: Sequence[Series]) -> list[Figure]:
-    """Return the paths, distance and height on equal scales, with thrust arrows along the first one."""
+    """Return the figure of the paths, height over distance on equal scales, with thrust arrows along the first path."""
     rows = [np.stack([*one.path.position.T, np.append(one.path.pitch, one.path.pitch[-1])]) for one in series]
     spans = [max(float(np.ptp(each[axis])) for each in rows) for axis in (0, 1)]
     upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
@@ -144,7 +144,7 @@ def path_figure(series: Sequence[Series]) -> list[Figure]:
 
 
 def bound_figure(study: LandingStudy, series: Sequence[Series]) -> list[Figure]:
-    """Return altitude over range of a landing, with separate scales of the axes, as wide as the page."""
+    """Return the figure of a landing's altitude over range, each axis with a separate scale, as wide as the page."""
     path, radius = study.bound, study.landing.radius
     x, y = path.position[:, 0], path.position[:, 1] + radius
     central = np.arctan2(x, y)
@@ -161,7 +161,7 @@ def _path_words(series: Sequence[Series]) -> str:
 def path_chart(
     series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str], scaled: str, intervals: int
 ) -> Chart:
-    """Return the paths; a dot marks the end of the first, along which thrust arrows are drawn.
+    """Return the chart of the paths; a dot marks the end of the first, along which thrust arrows are drawn.
 
     ``shown`` are positions and thrust angles of the drawn paths, a row each: abscissa and ordinate (m), angle (rad).
     """

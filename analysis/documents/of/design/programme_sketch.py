@@ -35,7 +35,7 @@ def sketch_figure(programme: Programme) -> list[Figure]:
 
 
 def sketch_chart(programme: Programme) -> Chart:
-    """Return the tilt of thrust from the vertical (deg) over time, with t2, t5, w, tp and t7 as dimensions.
+    """Return the chart of thrust's tilt from the vertical (deg) over time; t2, t5, w, tp and t7 are dimensions.
 
     Full thrust is shaded. A dashed line is the fraction k of the largest tilt towards the target, at which the initial
     burn begins and ends if w is below t1 and d (`docs/systems/hover_transfer.md`).

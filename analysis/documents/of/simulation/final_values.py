@@ -70,7 +70,7 @@ def final_values(result: FlightResult) -> Node:
 
 
 def signal_table(result: FlightResult) -> Table:
-    """Return the initial, minimum, maximum and final value of every signal."""
+    """Return the table of the initial, minimum, maximum and final value of every signal."""
     heads = ("signal", "unit", "initial", "minimum", "maximum", "final")
     rows = [_signal_row(name, result) for name in result.signals] if result.time.size else []
     return Table(heads, rows, style="signals")

@@ -32,7 +32,7 @@ FAR = 0.35  # rad along the ground, beyond which the ground track replaces the p
 
 
 def trajectory_figures(result: FlightResult) -> list[Figure]:
-    """Return the views for a page; none if there is no position."""
+    """Return the figures of the views for a page; no figures without a position."""
     components = ", ".join(group.component for group in position_groups(result))
     figures = []
     for view in _views(result):
@@ -61,7 +61,7 @@ def trajectory_plot(result: FlightResult) -> Drawing | None:
 
 
 def trajectory_legend(result: FlightResult) -> list[LegendEntry]:
-    """Return the components' lines with their names; empty for a single component."""
+    """Return the legend with the components' lines and names; empty for a single component."""
     return legend_of(tuple(group.label for group in position_groups(result)))
 
 

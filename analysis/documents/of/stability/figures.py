@@ -71,7 +71,7 @@ def overview_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def bode_figure(loop: LoopReport, label: str, name: str, height: float) -> Figure:
-    """Return gain and phase of a loop above each other."""
+    """Return the figure of gain and phase of a loop above each other."""
     gain, phase = bode_charts(loop)
     return Figure(label, name, f"Bode diagram of {loop.name}: {margin_words(loop)}", gain, height, below=phase)
 
@@ -109,14 +109,14 @@ def figures_by_part(loop: LoopReport, name: str) -> ByPart:
 
 
 def sensitivity_figure(loop: LoopReport, name: str) -> Figure:
-    """Return sensitivity and complementary sensitivity."""
+    """Return the figure of sensitivity and complementary sensitivity."""
     peaks = [number(decibels(peak), 3) for peak in (loop.robust.sensitivity_peak, loop.robust.complementary_peak)]
     words = f"Sensitivities of {loop.name}: peaks {peaks[0]} dB and {peaks[1]} dB"
     return _small("Sensitivities", f"{name}-sensitivity", words, sensitivity_chart(loop), LOW)
 
 
 def dispersion_figures(loop: LoopReport, name: str) -> list[Figure]:
-    """Return histograms of the margins over the trials of a campaign, and the cloud of poles."""
+    """Return figures of the margins' histograms over the trials of a campaign, and of the cloud of poles."""
     dispersion = loop.dispersion
     if dispersion is None:
         return []
@@ -142,7 +142,7 @@ def _smallest_size(sizes: np.ndarray) -> str:
 
 
 def amplitude_figures(loop: LoopReport, name: str) -> list[Figure]:
-    """Return gain and phase over the amplitude, if there are several amplitudes."""
+    """Return the figure of gain and phase over the amplitude, if there are several amplitudes."""
     if len(loop.amplitudes) < 2:
         return []
     words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
@@ -150,7 +150,7 @@ def amplitude_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def nonlinear_figures(loop: LoopReport, name: str, index: int) -> list[Figure]:
-    """Return the describing function of one element, and the harmonic balance."""
+    """Return figures of the describing function of one element, and of the harmonic balance."""
     element = loop.nonlinearities[index]
     cycles = len(element.cycles)
     words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
@@ -162,7 +162,7 @@ def nonlinear_figures(loop: LoopReport, name: str, index: int) -> list[Figure]:
 
 
 def joint_figure(joint: JointReport, name: str) -> Figure:
-    """Return the disk margin of several channels over frequency."""
+    """Return the figure of the disk margin of several channels over frequency."""
     words = f"Disk margin of {joint.name} over frequency, least {number(float(joint.disk_margin), 3)}"
     if not joint.stable:
         words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
@@ -172,7 +172,7 @@ def joint_figure(joint: JointReport, name: str) -> Figure:
 
 
 def sweep_figure(sweep: SweepReport, report: StabilityStudy, name: str) -> Figure:
-    """Return margins over a parameter with the study's limits."""
+    """Return the figure of margins over a parameter with the study's limits."""
     limits = LimitLines(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
     words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"
     if unstable := sum(item.unstable for item in sweep.margins):

@@ -66,7 +66,7 @@ SIZES = (
 
 
 def summary_table(report: StabilityStudy) -> Table:
-    """Return loops by operating points with their margins."""
+    """Return the table of the margins of all loops at all operating points."""
     rows = [
         (with_mark(report, loop, link(report, loop)), loop.point, *margin_cells(loop), verdict(loop.verdict))
         for loop in report.loops
@@ -76,7 +76,7 @@ def summary_table(report: StabilityStudy) -> Table:
 
 
 def loop_table(loop: LoopReport) -> Table:
-    """Return the margins of one loop, for screens."""
+    """Return the table of one loop's margins, for screens."""
     return Table([*numbers(*SIZES), *names("closed loop")], [margin_cells(loop)], is_printed=False)
 
 
@@ -95,7 +95,7 @@ def margin_cells(loop: LoopReport) -> Sequence[Cell]:
 
 
 def joint_table(report: StabilityStudy) -> Table:
-    """Return disk margins of several channels that vary simultaneously and independently."""
+    """Return the table of disk margins of several channels that vary simultaneously and independently."""
     rows: list[tuple[Cell, ...]] = []
     for joint in report.joint:
         margins: tuple[Cell, ...] = (

@@ -43,7 +43,7 @@ def _declared(limits: dict[str, float]) -> list[Inline]:
 
 
 def limit_table(report: StabilityStudy) -> Table:
-    """Return the applied limits, each once."""
+    """Return the table of applied limits, each once."""
     rows: dict[tuple[str, str], tuple[Cell, ...]] = {}
     for _, item in report.judgements():
         rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
@@ -51,7 +51,7 @@ def limit_table(report: StabilityStudy) -> Table:
 
 
 def hash_table(report: StabilityStudy) -> Table:
-    """Return the hashes of the system and its FMUs."""
+    """Return the table of hashes of the system and its FMUs."""
     provenance = report.provenance
     rows: list[tuple[Cell, ...]] = []
     if "system_sha256" in provenance:

@@ -112,10 +112,10 @@ def course_look(index: int) -> Look:
 
 
 def over_time_chart(histories: Sequence[MarginHistory], quantity: MarginQuantity) -> Chart:
-    """Return one margin of all loops over time, negative for decreasing gain or lead; forbidden values are shaded.
+    """Return the chart of one margin of all loops over time, with forbidden values shaded.
 
-    The mark of the nearer margin of each loop is filled, the mark of the other margin is hollow. A cross at 0 is an
-    unstable loop, a triangle at the top is a loop without a crossover.
+    Margins for decreasing gain or lead are negative. The mark of the nearer margin of each loop is filled, the mark of
+    the other margin is hollow. A cross at 0 is an unstable loop, a triangle at the top is a loop without a crossover.
     """
     limits = sorted({limit for course in histories for key, limit in _requirements(course) if key is quantity})
     is_below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)

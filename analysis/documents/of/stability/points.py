@@ -43,7 +43,7 @@ def _settings(point: PointReport) -> list[Inline]:
 
 
 def point_table(points: Sequence[PointReport], parameters: Mapping[str, object]) -> Table:
-    """Return, for each point, the state that drifts most, and how long the frozen-time linearisation is valid."""
+    """Return a row for each point: the state that drifts most, and how long the frozen-time linearisation is valid."""
     rows: list[tuple[Cell, ...]] = []
     for point in points:
         fastest: Cell = "none"
@@ -71,7 +71,7 @@ def _validity(point: PointReport, parameters: Mapping[str, object]) -> Cell:
 
 
 def trim_table(points: Sequence[PointReport]) -> Table:
-    """Return, for each operating point, the states that change most while they are assumed constant."""
+    """Return the table of states that change most at each operating point while they are assumed constant."""
     rows: list[tuple[Cell, ...]] = [
         (point.name, name, numeral(value, unit, 6), numeral(change, unit), display_unit(unit))
         for point in points

@@ -36,7 +36,7 @@ def sweep_nodes(report: StabilityStudy) -> list[Node]:
 
 
 def value_table(sweep: SweepReport) -> Table:
-    """Return the margins at each value of the parameter."""
+    """Return the table of margins at each value of the parameter."""
     rows = [
         (
             numeral(float(value), sweep.unit),
@@ -50,7 +50,7 @@ def value_table(sweep: SweepReport) -> Table:
 
 
 def crossing_table(sweep: SweepReport) -> Table:
-    """Return the parameter values at which limits are crossed."""
+    """Return the table of the parameter values at which limits are crossed."""
     rows = [
         (
             UNSTABLE_WORD if crossing.quantity is MarginQuantity.STABILITY else f"{crossing.quantity} misses its limit",

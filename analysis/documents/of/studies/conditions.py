@@ -66,7 +66,7 @@ def _noise(noise: Noise, random: str) -> str:
 def closing_sections(
     study: StudyResult, replays: Sequence[tuple[str, str]], missing: Rich = UNWRITTEN
 ) -> list[Section]:
-    """Return replays, dispersed parameters and provenance; ``missing`` states why there are no replays."""
+    """Return the sections of replays, dispersed parameters and provenance; ``missing`` explains missing replays."""
     return [
         Section("Replay", [Commands(replays, missing)]),
         Section("Dispersed parameters", [Only(Medium.PAGE, lambda: _draws(study))]),

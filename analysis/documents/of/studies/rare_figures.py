@@ -33,14 +33,14 @@ PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
 def limit_figures(study: RareOutcome) -> list[Figure]:
-    """Return the limit state of every simulation over its number."""
+    """Return the figure of the limit state of every simulation over its number."""
     words = f"Limit state of {study.flights} simulations in {len(study.simulation.levels)} levels"
     chart = limit_state_chart(study)
     return [Figure("", "limit-state", words, chart, HEIGHT, is_wide=True, legend=curve_legend(chart))]
 
 
 def limit_state_chart(study: RareOutcome) -> Chart:
-    """Return simulations by number, failures in colour, and the thresholds of levels."""
+    """Return the chart of limit states by number of simulation, with coloured failures and the thresholds of levels."""
     factor = display_factor(study.margin_unit)
     values = study.flown.values
     numbers = np.arange(1.0, values.size + 1.0)
@@ -94,13 +94,13 @@ def limits_of(values: np.ndarray) -> tuple[float, float]:
 
 
 def exceedance_figures(study: RareOutcome) -> list[Figure]:
-    """Return the probability that the limit state exceeds a value."""
+    """Return the figure of the probability that the limit state exceeds a value."""
     words, chart = "Probability that the limit state exceeds a value", exceedance_chart(study)
     return [Figure("Exceedance probability", "exceedance", words, chart, HEIGHT, legend=curve_legend(chart))]
 
 
 def exceedance_chart(study: RareOutcome) -> Chart:
-    """Return the empirical curve of the first level, the thresholds of levels, and the failure with its interval."""
+    """Return the chart of the first level's empirical curve, the levels' thresholds, and the failure with interval."""
     spans = level_spans(study)
     factor = display_factor(study.margin_unit)
     first = np.sort(factor * study.flown.values[: spans[0].last])
@@ -142,7 +142,7 @@ DESIGN_LEGEND = [
 
 
 def design_figures(study: RareOutcome) -> list[Figure]:
-    """Return samples, failures and design points over pairs of the most influential parameters."""
+    """Return figures of samples, failures and design points over pairs of the most influential parameters."""
     pairs = combinations(list(influence(study))[:PAIRED], 2)
     return [
         Figure(
@@ -188,14 +188,14 @@ def design_chart(study: RareOutcome, one: str, other: str) -> Chart:
 
 
 def interval_figures(study: RareOutcome) -> list[Figure]:
-    """Return the interval of this study, and the intervals of Monte Carlo campaigns."""
+    """Return the figure of this study's interval, and of the intervals of Monte Carlo campaigns."""
     rows = equivalents(study)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, study.probability)
     return [Figure("", "interval", words, chart, 0.8 + 0.5 * len(rows), is_wide=True)]
 
 
 def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:
-    """Return a lane for each interval with its name above; an interval from 0 ends at the left edge with an arrow."""
+    """Return the chart of intervals, a named lane for each; an interval from 0 ends at the left edge with an arrow."""
     positive = [end for row in rows for end in (row.low, row.high, probability or 0.0) if end > 0.0]
     left = 0.3 * min(positive)
     curves, notes = [], []

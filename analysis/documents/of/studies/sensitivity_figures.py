@@ -71,7 +71,7 @@ def index_figures(study: SensitivityOutcome, metrics: Sequence[str]) -> list[Fig
 
 
 def index_chart(bars: Sequence[IndexBar]) -> Chart:
-    """Return two bars for each parameter with confidence intervals: total above, first-order below."""
+    """Return the chart of indices: two bars for each parameter, total above first-order, with confidence intervals."""
     areas, curves = [], []
     for lane, bar in enumerate(bars):
         for size, ends, offset, colour in (

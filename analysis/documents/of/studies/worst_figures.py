@@ -27,14 +27,14 @@ LANE = 0.52  # in
 
 
 def search_figures(study: WorstOutcome) -> list[Figure]:
-    """Return the objective over the points of the search, with the worst so far and the phases."""
+    """Return the figure of the objective over the points of the search, with the worst value so far and the phases."""
     chart = search_chart(study)
     words = f"{study.badness.text} at {objective_of(study).values.size} points of the search"
     return [Figure("", "search", words, chart, HEIGHT, is_wide=True, legend=curve_legend(chart))]
 
 
 def search_chart(study: WorstOutcome) -> Chart:
-    """Return every point as a dot, the worst so far as a line, and phases by number."""
+    """Return the chart of all points as dots, with the worst value so far as a line, and numbered phases."""
     objective = objective_of(study)
     numbers = np.arange(1.0, objective.values.size + 1.0)
     low, high = objective.limits()
@@ -100,7 +100,7 @@ def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:
 
 
 def random_figures(study: WorstOutcome) -> list[Figure]:
-    """Return the random trials with the worst case, and if new noise changes it, the worst case under new noise."""
+    """Return figures of the random trials with the worst case and, if new noise changes it, of its new realisations."""
     words = f"{study.badness.text}: {study.random_trials} random trials and the worst case"
     legend = _legend(f"{study.random_trials} random trials", _trial_levels(objective_of(study)))
     figures = [Figure("Worst case against random trials", "trials", words, trials_chart(study), HEIGHT, legend=legend)]
@@ -120,7 +120,7 @@ def _trial_levels(objective: ObjectiveValues) -> list[MarkedAbscissa]:
 
 
 def trials_chart(study: WorstOutcome) -> Chart:
-    """Return the histogram of the random trials, with marks at the worst of them and at the worst case."""
+    """Return the chart of the random trials as a histogram, with marks at the worst of them and at the worst case."""
     objective = objective_of(study)
     trials = objective.values[: study.random_trials]
     finite = trials[np.isfinite(trials)]
@@ -155,7 +155,7 @@ def _fresh_levels(study: WorstOutcome) -> list[MarkedAbscissa]:
 
 
 def fresh_chart(study: WorstOutcome) -> Chart:
-    """Return the fraction of new realisations up to a value, with marks at `_fresh_levels`."""
+    """Return the chart of the fraction of new realisations up to a value, with marks at `_fresh_levels`."""
     assert study.fresh is not None
     ranked = select_values(study, np.sort(study.fresh.values))
     fraction = np.arange(1.0, ranked.size + 1.0) / ranked.size
@@ -176,7 +176,7 @@ BOX_LEGEND = [LegendEntry(RANDOM, ["worst random trial"]), LegendEntry(WORST, ["
 
 
 def box_figures(study: WorstOutcome) -> list[Figure]:
-    """Return the position of the worst case in the search box, a lane for each dispersed parameter."""
+    """Return the figure of the worst case's position in the search box, with a lane for each dispersed parameter."""
     lanes = box_lanes(study)
     words = f"The worst case within the search box of {len(lanes)} parameters"
     height = 0.7 + LANE * len(lanes)
@@ -184,7 +184,7 @@ def box_figures(study: WorstOutcome) -> list[Figure]:
 
 
 def box_chart(lanes: Sequence[Lane]) -> Chart:
-    """Return positions as fractions of the box, with the values of its ends as labels."""
+    """Return the chart of positions as fractions of the box, with the values of its ends as labels."""
     curves, areas, notes = [], [], []
     for index, lane in enumerate(lanes):
         areas.append(outline(np.array([0.0, 1.0]), np.full(2, float(index)), GRID, 5.0))

@@ -88,7 +88,7 @@ def band_figures(
 
 
 def band_chart(quantity: FlightQuantity, band: Bands, colour: str, frame: QuantityFrame) -> Chart:
-    """Return the median over time with bands of 50 and 90 % of a variant's simulations, and some single ones."""
+    """Return the chart of a variant's median over time with 50 and 90 % bands, and some single simulations."""
     rows, steps = frame.factor * band.percentiles, quantity.held
     areas = [
         area

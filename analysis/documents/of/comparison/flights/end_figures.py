@@ -78,7 +78,7 @@ def _scale(variable: str, extent: float) -> tuple[float, str]:
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
-    """Return a variant's final errors about the target, with ellipses of the successful ones.
+    """Return the chart of a variant's final errors about the target, with ellipses of the successful trials.
 
     ``factor`` converts from SI to ``unit``, the unit of the axes.
     """
@@ -161,7 +161,7 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: st
 def _overlaid_chart(
     ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, across: str, x_ends: Pair, y_ends: Pair
 ) -> Chart:
-    """Return ellipses about the target, with an arrow towards each that exceeds the axes."""
+    """Return the chart of ellipses about the target, with an arrow towards each ellipse that exceeds the axes."""
     outside = [
         (curve.colour, points)
         for curve in ellipses

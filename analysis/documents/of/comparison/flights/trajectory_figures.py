@@ -28,7 +28,7 @@ ROOM = 0.12  # margin over the extent of successful paths; failed ones may excee
 
 
 def side_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
-    """Return height over downrange distance on one scale per axis, with the surface if heights are altitudes."""
+    """Return figures of height over downrange distance on common scales, with the surface if heights are altitudes."""
     framed = _frame(bundles)
     has_ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
@@ -64,7 +64,7 @@ def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_
 
 
 def plan_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
-    """Return paths in plan view with the target, on one scale."""
+    """Return figures of paths in plan view with the target, on a common scale."""
     plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
     is_to_scale = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH

@@ -117,7 +117,7 @@ def joint_findings(figures: Sequence[FigureDeclaration], result: FlightResult) -
 
 
 def limit_section(limits: LimitsFigure, result: FlightResult, is_counted: bool) -> Group:
-    """Return the table of limits, or why none is evaluated; ``is_counted`` adds how many are met, and which are not."""
+    """Return the section of limits: their table, or why none is evaluated; ``is_counted`` adds a summary."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is LimitVerdict.VIOLATED]
     obstacle = limits.obstacle(result)
     total = len(limits.limits)

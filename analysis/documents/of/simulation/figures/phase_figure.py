@@ -245,7 +245,7 @@ def amount(item: BudgetItem, spent: Mapping[str, float], bound: BoundValues | No
 
 
 def budget_section(budget: BudgetFigure, result: FlightResult) -> Group:
-    """Return the table of a budget."""
+    """Return the section with the table of a budget."""
     spent = consumption_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
     amounts = [amount(item, spent, budget.bound) for item in budget.items]

@@ -84,7 +84,7 @@ def margin_crossings(loop: LoopReport) -> Classical:
 
 
 def sensitivity_chart(loop: LoopReport) -> Chart:
-    """Return sensitivity and, dashed, complementary sensitivity with their peaks, and the limit on sensitivity."""
+    """Return the chart of sensitivity and complementary sensitivity (dashed), with peaks and the limit."""
     curve, peaks, limit = loop.curve, loop.robust, limits_of(loop).modulus
     sensitivity = 1.0 / (1.0 + curve.value)
     s, t = in_db(sensitivity), in_db(curve.value * sensitivity)

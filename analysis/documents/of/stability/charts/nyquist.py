@@ -46,7 +46,7 @@ ALONG = 0.35  # position of the arrow along the visible stretch of the curve, ov
 
 
 def nyquist_chart(loop: LoopReport) -> Chart:
-    """Return L near -1 with the unit circle, the circle of the modulus margin, and the circle of its limit."""
+    """Return the chart of L near -1 with the unit circle, and circles of the modulus margin and of its limit."""
     value, crossings, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
     furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
@@ -71,7 +71,7 @@ def nyquist_chart(loop: LoopReport) -> Chart:
 
 
 def balance_chart(loop: LoopReport, element: Nonlinearity) -> Chart:
-    """Return L and -1/N(a); a limit cycle is predicted where they intersect."""
+    """Return the chart of L and -1/N(a); a limit cycle is predicted where they intersect."""
     value = loop.curve.value
     inverse = -1.0 / element.gain[np.abs(element.gain) > 0.0]
     meets = [np.interp(2.0 * math.pi / cycle.period, loop.curve.frequency, value) for cycle in element.cycles]
@@ -124,7 +124,7 @@ PHASES = (-360.0, -270.0, -180.0, -90.0, 0.0)  # deg
 
 
 def nichols_chart(loop: LoopReport) -> Chart:
-    """Return L as gain over phase (-360 to 0 deg), with the exclusion zone and the contour of the modulus limit."""
+    """Return the chart of gain over phase (-360 to 0 deg), with exclusion zone and contour of the modulus limit."""
     limits, crossings = limits_of(loop), margin_crossings(loop)
     curves = []
     if limits.modulus is not None and limits.modulus < 1.0:

@@ -36,7 +36,7 @@ def are_crowded(poles: np.ndarray) -> bool:
 
 
 def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
-    """Return all poles, or only poles near z = 1.
+    """Return the chart of all poles, or only of poles near z = 1.
 
     Crosses are modes that are controllable and observable at the cut; poles with |z| >= 1 are orange.
     """
@@ -57,7 +57,7 @@ def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
 
 
 def cloud_chart(loop: LoopReport) -> Chart:
-    """Return the poles of all trials, with the nominal ones as crosses above them."""
+    """Return the chart of the poles of all trials, with crosses for the nominal poles on top."""
     assert loop.dispersion is not None
     poles = np.ravel(loop.dispersion.poles)
     poles = poles[np.isfinite(poles)]

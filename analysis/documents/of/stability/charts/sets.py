@@ -34,7 +34,7 @@ WORST = marker("^", 7.0, VERMILION)
 
 
 def step_chart(loop: LoopReport) -> Chart:
-    """Return the response of T to a unit step at the cut, held between samples."""
+    """Return the chart of the response of T to a unit step at the cut, held between samples."""
     assert loop.step is not None
     time, response = loop.step
     abscissa = linear_axis((float(time[0]), float(time[-1])), 5, label="s")
@@ -45,7 +45,7 @@ def step_chart(loop: LoopReport) -> Chart:
 
 
 def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float | None) -> Chart:
-    """Return the histogram of trials over a margin: unstable ones hatched, limit dashed, worst trial marked."""
+    """Return the chart of a margin's histogram over trials: unstable trials hatched, limit dashed, worst marked."""
     sizes, worst = dispersion.sizes(quantity), dispersion.worst
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
     retained = sizes[finite]
@@ -93,7 +93,7 @@ def _hatched(left: float, right: float, height: float | None = None) -> list[Are
 
 
 def amplitude_charts(loop: LoopReport) -> tuple[Chart, Chart]:
-    """Return gain and phase of L at one frequency over the amplitude of the injected signal."""
+    """Return charts of gain and phase of L at one frequency over the amplitude of the injected signal."""
     amplitude = display_factor(loop.unit) * np.array([each.amplitude for each in loop.amplitudes])
     response = np.array([each.value for each in loop.amplitudes])
     order = np.argsort(amplitude)
@@ -123,7 +123,7 @@ def _marked(x: np.ndarray, y: np.ndarray, size: float) -> Curve:
 
 
 def describing_chart(element: Nonlinearity) -> Chart:
-    """Return the magnitude of the describing function over the amplitude at the element's input, with limit cycles."""
+    """Return the chart of the describing function's magnitude over the amplitude at the element, with limit cycles."""
     factor = display_factor(element.unit)
     amplitude, size = factor * element.amplitude, np.abs(element.gain)
     curves, plotted = [line(amplitude, size, BLUE)], [size]
@@ -147,7 +147,7 @@ def _abscissa(x: np.ndarray, label: str) -> Axis:
 
 
 def sweep_charts(sweep: SweepReport, limits: LimitLines) -> tuple[Chart, Chart]:
-    """Return gain and phase margin over a parameter, with limits and their crossings; unstable ranges are hatched."""
+    """Return charts of gain and phase margin over a parameter, with limits, crossings and hatched unstable ranges."""
     unstable = np.array([each.unstable for each in sweep.margins])
     gain = np.array([math.nan if each.unstable else decibels(each.gain) for each in sweep.margins])
     phase = np.array([math.nan if each.unstable else math.degrees(each.phase) for each in sweep.margins])
@@ -186,7 +186,7 @@ def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[
 
 
 def joint_chart(joint: JointReport) -> Chart:
-    """Return the disk margin of all channels at once over frequency, with its minimum and its limit."""
+    """Return the chart of the disk margin of all channels at once over frequency, with its minimum and limit."""
     curves = [line(joint.frequency, joint.disk_margins, BLUE)]
     if joint.stable and math.isfinite(joint.disk_frequency):
         curves.append(mark(joint.disk_frequency, joint.disk_margin, PEAK))
