@@ -77,7 +77,7 @@ def _crossings(at: At, low: float, high: float, required: dict[MarginQuantity, f
     """Return the limits crossed between two neighbouring values.
 
     If the loop becomes unstable in between, limits are searched on the stable side only: a margin still above its limit
-    there does not reach it, but ends.
+    there ends without reaching it.
     """
     crossings: list[SweepCrossing] = []
     if at(low).unstable and at(high).unstable:

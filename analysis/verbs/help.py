@@ -33,7 +33,7 @@ class Formatter(argparse.HelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse parser with errors on one line and without abbreviated options."""
+    """argparse parser that reports errors on one line and rejects abbreviated options."""
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)

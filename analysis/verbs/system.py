@@ -68,10 +68,9 @@ class System:
             self.set(f"{name}.{parameter}", setting)
 
     def connect(self, source: str, *sinks: str) -> None:
-        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; a connector of the system is stated by its
-        name.
+        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once.
 
-        A system connector must be declared by `connector` first.
+        A system connector is stated without ``COMPONENT`` and must be declared by `connector` first.
         """
         entries = [ListEntry(f"{source} -> {', '.join(sinks)}", "connect")]
         self._source = replace(self._source, connections=(*self._source.connections, *entries))

@@ -24,7 +24,7 @@ from .common.documented import Documented
 
 @dataclass(frozen=True)
 class Verifications(Documented, Sequence[Verification]):
-    """Verifications in the order of the paths."""
+    """Verifications of files, in the order of the paths."""
 
     files: tuple[Verification, ...]
 

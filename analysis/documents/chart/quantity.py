@@ -17,7 +17,8 @@ def quantity_curve(
 ) -> Curve:
     """Return a curve over ``x`` in the look of the index-th series; a single sample is a dot.
 
-    ``quantity`` is in ``unit``, [rows]; non-finite values are omitted. With ``steps`` it holds until the next row.
+    ``quantity`` is in ``unit``, [rows]; non-finite values are omitted. With ``steps`` each value holds until the next
+    row.
     """
     finite = np.where(np.isfinite(quantity), quantity, np.nan)
     colour = COLOURS[index % len(COLOURS)].lower()

@@ -1,7 +1,7 @@
 """Data of a scene for a page's script: poses of its bodies, and everything drawn with them.
 
-Positions are relative to `SceneView.origin`, so float32 resolves less than a millimetre at the end of a flight. Arrays
-are columns of the page, [samples].
+Positions are relative to `SceneView.origin`, so the resolution of float32 at the end of a flight is better than a
+millimetre. Arrays are columns of the page, [samples].
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Results of one loop beyond its margins: linearised and measured response, modes, state space, limit cycles.
 
-Times in s, frequencies in rad/s, gains as factors.
+Times are in s, frequencies in rad/s; gains are factors.
 """
 
 from __future__ import annotations

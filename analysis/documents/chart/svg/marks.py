@@ -1,4 +1,4 @@
-"""Marks in SVG: of the points of curves, and of trials."""
+"""Marks of the points of curves, and marks of trials, in SVG."""
 
 from __future__ import annotations
 

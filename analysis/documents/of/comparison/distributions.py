@@ -86,7 +86,7 @@ def sort_metrics(
 def metric_figures(
     distributions: Mapping[Metric, Mapping[str, np.ndarray]], metrics: Sequence[Metric], styles: Mapping[str, Look]
 ) -> list[Figure]:
-    """Return a figure of the distributions of each metric; errors over sigma with the normal distribution."""
+    """Return a figure of each metric's distributions; figures of errors over sigma include the normal distribution."""
     return [
         distribution_figure(
             metric,

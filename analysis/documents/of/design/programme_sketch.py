@@ -1,4 +1,4 @@
-"""Sketch of a hover transfer's programme, which explains its times and its threshold at their values."""
+"""Sketch of a hover transfer's programme that explains its times and its threshold, drawn with their actual values."""
 
 from __future__ import annotations
 

@@ -225,7 +225,7 @@ def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size
 
 
 def signal_plot(result: FlightResult, names: Sequence[str]) -> Drawing:
-    """Return a panel for each signal or vector, below each other over a common time.
+    """Return a figure with a panel for each signal or vector, below each other over a common time.
 
     Raises KeyError for an unknown name.
     """

@@ -42,7 +42,7 @@ def notebook_nodes(result: FlightResult, figures: Sequence[FigureDeclaration]) -
 
 
 def main_plot(result: FlightResult, figures: Sequence[FigureDeclaration]) -> Drawing | None:
-    """Return the plot of the trajectory, else of signals with a tolerance band, else of vectors, else of any signals."""
+    """Return a plot of the trajectory, else of signals with a tolerance band, else of vectors, else of any signals."""
     if not result.time.size:
         return None
     signals = [figure.signal for figure in figures if isinstance(figure, BandFigure)]

@@ -63,7 +63,7 @@ def hash_table(report: StabilityStudy) -> Table:
 
 
 def facts(report: StabilityStudy) -> list[tuple[str, Cell]]:
-    """Return the other provenance: seed, step, versions and so on."""
+    """Return all other provenance, such as seed, step and versions, as key numbers."""
     return [
         (key.replace("_", " "), Phrase([*make_fact_cell(value), " s"] if key in TIMES else make_fact_cell(value)))
         for key, value in report.provenance.items()

@@ -104,7 +104,7 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
 
 
 def are_indistinguishable(one: FigureContent, other: FigureContent) -> bool:
-    """Return True if two figures are indistinguishable."""
+    """Return True if two figures have equal content and no point differs by more than `TOLERANCE`."""
     if one.strokes != other.strokes or one.points.size != other.points.size:
         return False
     return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)

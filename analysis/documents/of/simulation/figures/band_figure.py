@@ -114,7 +114,7 @@ def _spans(band: BandFigure, result: FlightResult) -> list[tuple[float, float]]:
 
 
 def against_chart(band: BandFigure, result: FlightResult, other: Signal) -> Chart:
-    """Return the chart of a band's signal over another signal, over a logarithmic abscissa if this spans decades."""
+    """Return the chart of a band's signal over another signal, with a logarithmic abscissa if this spans decades."""
     abscissa, unit = other.plot_values(result)[0], display_unit(other.unit_name)
     label = f"{other.label}, {unit}" if unit else other.label
     placed = np.isfinite(abscissa)

@@ -43,8 +43,7 @@ PHASES = (1.0, 1.5, 3.0, 4.5, 9.0, 10.0)  # deg, steps between ticks, times a po
 
 
 def bode_charts(loop: LoopReport) -> tuple[Chart, Chart]:
-    """Return charts of gain and phase, with decisive margins as bars, their limits dashed, and measurements as
-    circles.
+    """Return charts of gain and phase: decisive margins are bars, limits are dashed, measured points are circles.
 
     A dotted line through both charts marks the frequency of each decisive margin.
     """

@@ -1,4 +1,4 @@
-"""Charts of margins over trials, amplitudes, parameters and frequency; step response."""
+"""Charts of margins over trials, amplitudes, parameters and frequency, and of the step response."""
 
 from __future__ import annotations
 
