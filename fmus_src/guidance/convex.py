@@ -51,7 +51,9 @@ class ConvexGuidance(ZemZevGuidance):
     plan = State(
         [0.0] * PLAN,
         frozen=True,
-        description="plan: thrust acceleration per interval, then position, velocity, gravity, log mass per node",
+        description=(
+            "plan: thrust acceleration per interval, then position, velocity, gravity and logarithm of mass per node"
+        ),
     )
     plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
     since_plan = State(0.0, unit="s", frozen=True, description="time since the last attempt to compute a plan")

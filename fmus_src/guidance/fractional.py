@@ -14,7 +14,7 @@ class GainChoice(Enumeration):
     """Origin of the exponents."""
 
     FIXED = member("gamma and kr from the parameters")
-    SEARCHED = member("gamma 1, kr searched for the constraints")
+    SEARCHED = member("gamma = 1, kr searched to satisfy the constraints")
 
 
 class FractionalGuidance(PolynomialGuidance):

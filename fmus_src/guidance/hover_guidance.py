@@ -57,7 +57,10 @@ class HoverGuidance(HoverPlan):
         description="natural frequency of the position loop in the last burn of a programme",
     )
     holding_frequency = Parameter(
-        0.12, unit="rad/s", minimum=0.0, description="natural frequency of the position loop in holds and polynomials"
+        0.12,
+        unit="rad/s",
+        minimum=0.0,
+        description="natural frequency of the position loop in hold and polynomial plans",
     )
     damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the position loop")
     tilt_filter = Parameter(
@@ -123,7 +126,7 @@ class HoverGuidance(HoverPlan):
     plan_start = State(0.0, frozen=True, unit="s", description="start time of the plan")
     in_charge = State(False, description="true: guidance was active at the last sample")
     flown_mode = State(HoverMode, description="mode in which the last plan was requested")
-    engine_thrust = State(0.0, unit="N", description="thrust expected from the engine by a model of its lag")
+    engine_thrust = State(0.0, unit="N", description="thrust of the engine predicted by a model of its lag")
     commanded_thrust = State(0.0, unit="N", description="last thrust command within the engine's limits; 0: no command")
     start_time = State(0.0, unit="s", description="start time of the simulation")
 

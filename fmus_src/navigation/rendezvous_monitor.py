@@ -12,10 +12,10 @@ from ..units import deg
 class ClosingStart(Enumeration):
     """Position of the robot relative to the approach cone at the start of closing."""
 
-    AWAITED = member("not within closing_range yet")
-    WITHIN_CONE = member("began within the cone")
-    OUTSIDE_CONE = member("began outside of the cone")
-    NO_DIRECTION = member("began with undefined direction: object at rest, or robot at its centre")
+    AWAITED = member("closing not begun")
+    WITHIN_CONE = member("within the cone")
+    OUTSIDE_CONE = member("outside the cone")
+    NO_DIRECTION = member("direction undefined: object at rest, or robot at its centre")
 
 
 class RendezvousMonitor(Block):

@@ -48,9 +48,7 @@ RANGE = Port(0.0, unit="m", description="distance from the robot to the object's
 ROTOR_MOMENTUM = Port(
     30.0, unit="N.m.s", minimum=1e-3, description="angular momentum of each gyro rotor about its spin axis"
 )
-SPIN_AXIS = Port(
-    [-0.608, 0.228, 0.760], unit="1", frame="inertial", description="spin axis of the object, of any length"
-)
+SPIN_AXIS = Port([-0.608, 0.228, 0.760], unit="1", frame="inertial", description="spin axis of the object (any length)")
 TRANSLATION_COUNT = Port(
     0, description="number of translation control samples since the start; a change signals a new sample"
 )
