@@ -40,7 +40,8 @@ def write_times(terminalreporter: Any) -> None:
                 times[report.nodeid]["wall"] += report.duration
                 times[report.nodeid]["processor"] += dict(report.user_properties).get("processor", 0.0)
     if times and BUILD.is_dir():
-        known = {name: entry for name, entry in read_times(TIMES).items() if name.split("::")[0] in _files()}
+        files = {path.as_posix() for path in Path("tests").rglob("test_*.py")}
+        known = {name: entry for name, entry in read_times(TIMES).items() if name.split("::")[0] in files}
         rounded = {name: {kind: round(number, 3) for kind, number in entry.items()} for name, entry in times.items()}
         write_atomically(TIMES, json.dumps(dict(sorted((known | rounded).items())), indent=0).encode())
 
@@ -48,10 +49,6 @@ def write_times(terminalreporter: Any) -> None:
 def read_times(path: Path = TIMES) -> dict[str, dict[str, float]]:
     """Return wall and processor time (s) by test; empty before the first run."""
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-
-
-def _files() -> set[str]:
-    return {path.as_posix() for path in Path("tests").rglob("test_*.py")}
 
 
 def _processor_time() -> float:
