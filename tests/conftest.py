@@ -246,6 +246,9 @@ def mission_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def browser() -> str:
-    """Return the path of chromium."""
-    return find_browser()
+def browser() -> Iterator[str]:
+    """Return the path of chromium; at the end quit the browsers that pages shared."""
+    yield find_browser()
+    from tests.support.pages.driven import quit_browsers
+
+    quit_browsers()

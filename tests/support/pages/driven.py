@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,23 +30,22 @@ PHONE = {"width": 390, "height": 844, "pixelRatio": 2.0, "touch": True}
 PATIENCE = 60  # s
 
 
+# Browsers between two tests, by what they were started with: a start takes a second and a half of processor time.
+_idle: defaultdict[tuple[str, ...], list[Chrome]] = defaultdict(list)
+
+
 @contextmanager
 def driven(
     browser: str, page: Path | str, *, phone: bool = False, unfolded: bool = False, flags: Sequence[str] = ()
 ) -> Iterator[Chrome]:
     """Open a file or an address once its scripts are ready; at the end nothing above "info" may be in the console.
 
-    ``unfolded`` opens all sections before scripts see them.
+    The page has a new window in a browser that earlier pages may have used. ``unfolded`` opens all sections
+    before scripts see them.
     """
     require_scripts()
-    options = ChromeOptions()
-    options.binary_location = browser
-    for flag in (*FLAGS, "--window-size=1400,1200", *flags):
-        options.add_argument(flag)
-    if phone:
-        options.add_experimental_option("mobileEmulation", {"deviceMetrics": PHONE})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    arguments = (browser, "phone" if phone else "screen", *FLAGS, "--window-size=1400,1200", *flags)
+    driver = _idle[arguments].pop() if _idle[arguments] else started(browser, arguments[2:], phone=phone)
     try:
         if unfolded:
             driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": UNFOLD})
@@ -55,8 +55,43 @@ def driven(
         messages = [entry for entry in driver.get_log("browser") if entry["level"] not in ("DEBUG", "INFO")]
         messages = [entry for entry in messages if READ_BACK not in entry["message"]]
         assert not messages, messages
-    finally:
+        _renew_window(driver)
+    except BaseException:
         driver.quit()
+        raise
+    _idle[arguments].append(driver)
+
+
+def started(browser: str, arguments: Sequence[str], *, phone: bool) -> Chrome:
+    """Return a browser that is started with arguments, as a telephone if ``phone``."""
+    options = ChromeOptions()
+    options.binary_location = browser
+    for argument in arguments:
+        options.add_argument(argument)
+    if phone:
+        options.add_experimental_option("mobileEmulation", {"deviceMetrics": PHONE})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return Chrome(options=options, service=Service(shutil.which("chromedriver")))
+
+
+def _renew_window(driver: Chrome) -> None:
+    """Replace all windows by a new one, without scripts, media and messages of the former page."""
+    former = driver.window_handles
+    driver.switch_to.new_window("window")
+    current = driver.current_window_handle
+    for each in former:
+        driver.switch_to.window(each)
+        driver.close()
+    driver.switch_to.window(current)
+    driver.execute_cdp_cmd("Page.bringToFront", {})
+    driver.get_log("browser")
+
+
+def quit_browsers() -> None:
+    """Quit the browsers that no test uses."""
+    for drivers in _idle.values():
+        while drivers:
+            drivers.pop().quit()
 
 
 def scroll_to_plot(driver: Chrome, frame: WebElement) -> WebElement:

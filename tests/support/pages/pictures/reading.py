@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,11 +10,10 @@ from math import hypot
 from pathlib import Path
 from typing import Any
 
-from selenium.webdriver import Chrome, ChromeOptions
-from selenium.webdriver.chrome.service import Service
+from selenium.webdriver import Chrome
 from selenium.webdriver.support.ui import WebDriverWait
 
-from tests.support.pages.driven import FLAGS, PATIENCE, PHONE, READ_BACK, READY
+from tests.support.pages.driven import FLAGS, PATIENCE, READ_BACK, READY, started
 from tests.support.pages.scripts import require_scripts
 
 SCRIPT = Path(__file__).with_name("reading.js").read_text(encoding="utf-8")
@@ -40,14 +38,7 @@ class Comparison:
 def reading(browser: str, *, phone: bool = False) -> Iterator[Chrome]:
     """Yield a browser that notes drawings of pages."""
     require_scripts()
-    options = ChromeOptions()
-    options.binary_location = browser
-    for flag in (*FLAGS, "--window-size=1400,1200"):
-        options.add_argument(flag)
-    if phone:
-        options.add_experimental_option("mobileEmulation", {"deviceMetrics": PHONE})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    driver = started(browser, (*FLAGS, "--window-size=1400,1200"), phone=phone)
     driver.set_script_timeout(PATIENCE)
     driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": SCRIPT})
     try:
