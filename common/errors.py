@@ -89,9 +89,7 @@ def name_by_flags(text: str, flags: Mapping[str, str]) -> str:
 
 
 class EndedError(RuntimeError):
-    """Error that ends work early for a reason other than its input, such as an interruption; ``status`` is the exit
-    status.
-    """
+    """Error that ends work early for a reason other than its input, such as an interruption; has an exit ``status``."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message, status)
@@ -128,9 +126,7 @@ NEAR = 0.6  # least ratio of difflib, which is 1 for equal texts
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return a remedy for an unknown name: the most similar known names, or all names if there are few or none is
-    similar.
-    """
+    """Return a remedy for an unknown name: the most similar names, or all if there are few or none is similar."""
     names = sorted(set(known), key=_natural)
     if not names:
         return "none is available"

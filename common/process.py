@@ -90,9 +90,7 @@ _farewells: list[Callable[[], object]] = []
 
 
 def at_end(farewell: Callable[[], object]) -> None:
-    """Register a function to call when this process ends, also by `exit_process`; the last one registered is called
-    first.
-    """
+    """Register a function to call when this process ends, also by `exit_process`; the last one is called first."""
     _farewells.append(farewell)
     atexit.register(farewell)
 

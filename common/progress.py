@@ -25,9 +25,7 @@ class ProgressLines(text_bar):
         super().__init__(**options | lines)
 
     def display(self, msg: str | None = None, pos: int | None = None) -> bool:
-        """Write a line if `PERIOD` has passed since the last line or the start; write nothing when tqdm clears its
-        bar.
-        """
+        """Write a line if `PERIOD` has passed since the last line or the start, unless tqdm is clearing its bar."""
         now = self._time()
         if msg is None and now - self._written >= PERIOD:
             self._written = now
@@ -44,9 +42,7 @@ class ProgressLines(text_bar):
 
 
 def progress_bar(**options: Any) -> text_bar:
-    """Return tqdm's bar with ``options``, which disappears at the end, or log lines if standard error is not a
-    terminal.
-    """
+    """Return tqdm's bar, which disappears at the end, or log lines if standard error is not a terminal."""
     # tqdm checks that its file is a terminal, and the output of a notebook cell is none
     if IN_NOTEBOOK or sys.stderr.isatty():
         return tqdm(**options, disable=False, leave=False)

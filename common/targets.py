@@ -72,7 +72,7 @@ def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: 
 
 
 def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> None:
-    """Reject a file in ``folder``, or the folder itself, that cannot be written, by a trial in the nearest existing
+    """Reject a file in ``folder``, or the folder itself, that cannot be written; test in the nearest existing
     folder.
     """
     here = folder.absolute()

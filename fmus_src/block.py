@@ -81,8 +81,9 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def _check_redeclared(cls, name: str, value: Variable) -> None:
-        """Check that a redeclared variable keeps its causality, since other blocks connect to it; start and bounds may
-        change.
+        """Check that a redeclared variable keeps its causality, since other blocks connect to it.
+
+        Start and bounds may change.
         """
         before = cls.variables.get(name)
         if before is not None and before.causality != value.causality:

@@ -43,8 +43,9 @@ def is_own(digest: str) -> bool:
 
 
 def has_foreign(path: Path) -> bool:
-    """Return True if a file, or a folder with its subfolders, contains FMUs that Perilune has not built; False if it
-    cannot be read.
+    """Return True if an FMU, an .ssp or the FMUs in a folder's subfolders are not all built by Perilune.
+
+    A path that cannot be read gives False.
     """
     try:
         if names_fmu(path):

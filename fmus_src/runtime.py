@@ -145,9 +145,7 @@ class BlockInstance:
         return self.read(list(range(len(self.elements))))
 
     def set(self, references: list[int], values: list) -> None:
-        """Set variables by value reference: inputs and parameters before the start, inputs and tunable parameters
-        between steps.
-        """
+        """Set variables by value reference: inputs and, before the start, parameters; later only tunable parameters."""
         if self.initialising:
             self.write(references, values)
             self.unsettled = True
@@ -160,9 +158,7 @@ class BlockInstance:
         self.write(references, values)
 
     def find_tuned(self, references: list[int]) -> list[int]:
-        """Return the positions of tunable parameters among references. Raises TuningError for fixed and computed
-        variables.
-        """
+        """Return the positions of tunable parameters among references. Raises TuningError for other non-inputs."""
         tuned = []
         for k, reference in enumerate(references):
             name, index = self.elements[reference]

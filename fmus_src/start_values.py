@@ -19,9 +19,7 @@ class StartError(ValueError):
 
 
 class TuningError(ValueError):
-    """Error raised for a variable that cannot be set between steps, or not to the requested value; the message gives
-    the reason.
-    """
+    """Error raised for a variable, or a value, that cannot be set between steps; the message gives the reason."""
 
 
 def start_range(variable: Variable) -> tuple[float, float]:

@@ -65,10 +65,9 @@ def with_relative_imports(text: bytes, file: Path) -> bytes:
 
 
 def modules_of(path: Path) -> dict[Path, bytes]:
-    """Return the sources, with relative imports, of a file and of all files in its folder that it imports,
-    recursively.
+    """Return the sources, with relative imports, of a file and of all files in its folder that it needs.
 
-    Raises SyntaxError.
+    Imports of imported files are included. Raises SyntaxError.
     """
     folder = path.resolve().parent
     sources: dict[Path, bytes] = {}

@@ -161,7 +161,7 @@ class Variable:
 
     @property
     def fmi_type(self) -> str:
-        """FMI 2.0 type: Enumeration for a variable with an enumeration, else the type of the values."""
+        """FMI 2.0 type: Enumeration for a variable with an enumeration, otherwise the type of the values."""
         return "Enumeration" if self.enumeration is not None else self.type_name
 
     def element_names(self) -> list[str]:
@@ -202,8 +202,8 @@ class Variable:
         return other
 
     def check_start(self, block: Any, values: Any) -> list:
-        """Return the values of any sequence as a list of elements. Raises TypeError if the number or type of the values
-        does not fit.
+        """Return the values of a sequence as a list of elements. Raises TypeError for a wrong number or type of
+        values.
         """
         where = f"{block.fmu_name}.{self.name}"
         try:
@@ -282,7 +282,7 @@ class Parameter(Variable):
 
 
 class State(Variable):
-    """Internal variable kept from step to step; readable by the importer, never set by it.
+    """Internal variable that keeps its value from step to step; the importer can read it but never set it.
 
     ``declared`` may be a record class, with start values of fields by name (others 0): a variable ``motion`` declared
     as ``State(Motion, speed=7620.0)`` has the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on. They

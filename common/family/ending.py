@@ -29,9 +29,7 @@ def end_with_parent(parent: int) -> None:
 
 
 def end_after(process: int) -> None:
-    """Start a thread that ends this process when another process ends, whichever of its threads started this
-    process.
-    """
+    """Start a thread that ends this process when another process ends, whichever of its threads started this one."""
     threading.Thread(target=_wait_and_end, args=(process,), daemon=True).start()
 
 

@@ -85,9 +85,7 @@ class GyroSteering(Block, interface=True):
     start_time = sampling.START_TIME.state()
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        """Set gimbal_rates (rad/s) and status for a rate of change of the momentum (1/s, in units of one rotor's
-        momentum).
-        """
+        """Set gimbal_rates (rad/s) and status for a rate of change (1/s) of the normalised momentum h."""
 
     def sample(self, time: float) -> None:
         """Set the gimbal rates for torque and gimbal angles at ``time`` (s)."""

@@ -14,10 +14,11 @@ class ThrustAllocation(Allocation):
 
         thrust_lag F' = (1 + e) clip(m a_c, minimum_thrust, maximum_thrust) - F
 
-    with a constant random error e. The lag is exact for a demand held over the step; the output is held by the plant,
-    which adds half a step of delay. With a slew limit the direction turns towards the commanded one at a mean rate of
-    at most slew_rate_limit over each step, and by no more than 1.5 rad in one step; it starts aligned and at rest. All
-    limits are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the maximum.
+    with a constant random error e. The lag is exact for a demand that is constant over the step; the plant holds the
+    output, which adds half a step of delay. With a slew limit the direction turns towards the commanded one at a mean
+    rate of at most slew_rate_limit over each step, and by no more than 1.5 rad in one step; it starts aligned and at
+    rest. All limits are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the
+    maximum.
 
     thrust_lead ends the burn early, to compensate the impulse that a first-order lag leaves after cut-off.
     direction_lead commands the future direction, to compensate a first-order attitude response.
@@ -133,7 +134,7 @@ class ThrustAllocation(Allocation):
         return shortened
 
     def pass_direction(self) -> None:
-        """Output the demanded direction and timing with their lead times."""
+        """Output the demanded direction and burn timing, shifted by their lead times."""
         self.thrust_direction = self.demanded_direction
         self.thrust_direction_rate = self.demanded_direction_rate
         # an earlier reference time gives the direction in advance, at any time
@@ -141,9 +142,7 @@ class ThrustAllocation(Allocation):
         self.burn_duration = self.duration() + self.direction_lead
 
     def slew(self, time: float, h: float) -> None:
-        """Turn the thrust direction at ``time`` (s) towards the demanded one within the slew limit for a step of h
-        (s).
-        """
+        """Turn the thrust direction at ``time`` (s) towards the demanded one, by at most the slew limit over h (s)."""
         since = time + h - (self.demand_time - self.direction_lead)
         goal = self.demanded_direction + since * self.demanded_direction_rate
         goal = goal / norm(goal)

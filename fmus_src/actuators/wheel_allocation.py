@@ -100,9 +100,7 @@ class WheelAllocation(Block, interface=True):
         self.allocate()
 
     def null_torque(self) -> Vector4:
-        """Return the motor torques (N m) of the null motion towards ``speed_change``, within the margins that the
-        command leaves.
-        """
+        """Return the motor torques (N m) of the null motion towards ``speed_change``, within the remaining margins."""
         amount = 0.0
         for j in range(WHEELS):
             amount = amount + self.null[j] * self.speed_change[j]

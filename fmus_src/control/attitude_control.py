@@ -28,7 +28,7 @@ class AttitudeControl(Block):
     In the first term ω and G = J ω + gyro_momentum are predicted for the middle of the next sample_period. M_jets is
     jet_torque + J disturbance with feed_forward, else 0.
 
-    law 0: u is attitude_error through a lead compensator, discretised by Tustin's rule at sample_period:
+    law 0: u is the output of a lead compensator for e = attitude_error, discretised by Tustin's rule at sample_period:
 
         u = k (t_1 s + 1)/(t_2 s + 1) e
 
@@ -40,7 +40,7 @@ class AttitudeControl(Block):
 
     Frame: body.
 
-    Assumes small errors, and inertia as declared.
+    Assumes small errors and a known inertia.
 
     Source: Somov, Butyrin, Somov and Somova, with the sign of u corrected. See docs/theory/rendezvous.md.
     """
@@ -98,9 +98,7 @@ class AttitudeControl(Block):
         self.command()
 
     def correction(self) -> Vector3:
-        """Return the correction to be subtracted from the angular acceleration (rad/s2), and advance the lead
-        compensator.
-        """
+        """Return the correction to subtract from the angular acceleration (rad/s2), and advance the compensator."""
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period)
             m = lead_output(law, self.lead_state, self.attitude_error)

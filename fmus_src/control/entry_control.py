@@ -29,7 +29,7 @@ class EntryControl(Block, interface=True):
 
     Frame: body.
 
-    Assumes a capsule near its trim, and inertia as known on board.
+    Assumes a capsule near its trim and a known inertia.
 
     Source: Lapin, thesis, chapter 3.2. See docs/systems/entry_attitude.md.
     """

@@ -38,9 +38,7 @@ class OrbitalArrivalControl(OrbitalControl):
         return self.turn_angle - rate * back, -rate
 
     def torque_about(self, k: int, error: float, led: float, rate: float, time: float) -> float:
-        """Return the torque (N m) about axis k from the error (rad) of an angle, its commanded rate ``led`` and its
-        actual rate (rad/s).
-        """
+        """Return the torque (N m) about axis k for an angle error (rad) and the commanded and actual rates (rad/s)."""
         left = self.arrival_time - time
         if left < self.least_time:
             left = self.least_time

@@ -24,8 +24,8 @@ class QuaternionFeedbackStatus(Enumeration):
 class QuaternionFeedback(Block):
     """Quaternion feedback with gyroscopic decoupling, feedforward of the reference and an optional integral.
 
-    With the vector part q of the rotation C from reference to estimate (shorter way), d = ω - C ω_r, reference rate ω_r
-    and acceleration ε_r, and wheel momentum h:
+    With the vector part q of the shorter rotation C from reference to estimate, d = ω - C ω_r, reference rate ω_r and
+    acceleration ε_r, and wheel momentum h:
 
         τ = ω × (J ω + h) + J (C ε_r + (C ω_r) × ω - 2 k q - c d - i)    i' = 2 (ω_0^2/T) q
         k = ω_0^2 + 2 ζ ω_0/T    c = 2 ζ ω_0 + 1/T
@@ -37,7 +37,7 @@ class QuaternionFeedback(Block):
 
     Frame: body.
 
-    Assumes a rigid body with inertia as known on board.
+    Assumes a rigid body with a known inertia.
 
     Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7. See docs/systems/satellite_pointing.md.
     """
@@ -102,7 +102,7 @@ class QuaternionFeedback(Block):
         return attitudes and rates and known and is_finite(self.feedforward_torque)
 
     def correction(self, error: Vector3, rate_error: Vector3) -> Vector3:
-        """Return the correction to be subtracted from the angular acceleration (rad/s2), and advance the integral."""
+        """Return the correction to subtract from the angular acceleration (rad/s2), and advance the integral."""
         w = self.natural_frequency
         stiffness = w * w
         damping = 2.0 * self.damping * w

@@ -20,7 +20,8 @@ class TranslationControl(Block):
 
         P = m (a_p - u)
 
-    law 0: u is position_error through a lead compensator, discretised by Tustin's rule at translation_period:
+    law 0: u is the output of a lead compensator for e = position_error, discretised by Tustin's rule at
+    translation_period:
 
         u = k (t_1 s + 1)/(t_2 s + 1) e
 
@@ -35,7 +36,7 @@ class TranslationControl(Block):
 
     Frame: inertial.
 
-    Assumes mass as declared.
+    Assumes a known mass.
 
     Source: Somov, Butyrin, Somov and Somova, with the sign of u corrected. See docs/theory/rendezvous.md.
     """
@@ -102,7 +103,7 @@ class TranslationControl(Block):
         return nearest
 
     def correction(self) -> Vector3:
-        """Return the correction to be subtracted from the acceleration (m/s2), and advance the lead compensator."""
+        """Return the correction to subtract from the acceleration (m/s2), and advance the compensator."""
         k = self.design()
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)

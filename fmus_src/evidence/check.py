@@ -60,8 +60,7 @@ def elements_of(block_class: type[Block]) -> dict[str, Variable]:
 
 
 def read_check(block_class: type[Block]) -> Check | None:
-    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to the block's file; None without both
-    files.
+    """Read a block's check, checks/NAME.csv and checks/NAME.toml next to the block's file; None without both.
 
     Raises CheckError, naming file and element, if only one of them exists or one does not fit the block.
     """

@@ -66,9 +66,7 @@ class Related:
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
-    """Return the files of an archive together with the manifest and SHA256SUMS, a list of all files in the format of
-    sha256sum.
-    """
+    """Return the files of an archive with the manifest and with SHA256SUMS, a list in the format of sha256sum."""
     sums = "".join(
         f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files) if name not in NOT_LISTED
     )

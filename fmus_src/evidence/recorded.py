@@ -48,7 +48,7 @@ def _record(block_class: type[Block], check: Check) -> bytes:
 
 
 def write_table(names: Sequence[str], rows: Iterable[Sequence[str]]) -> bytes:
-    """Return a CSV table; names with commas, such as those of matrix elements, are quoted."""
+    """Return a CSV table; names that contain commas, as for matrix elements, are quoted."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([names, *rows])
     return text.getvalue().encode()

@@ -16,7 +16,7 @@ class ApolloGuidance(PolynomialGuidance):
     time_choice and time_weight have no effect. The law does not limit thrust; the status is 1 if the remaining descent
     needs more than maximum_thrust.
 
-    Assumes constant gravity or gravity_correction.
+    Assumes constant gravity unless gravity_correction is set.
 
     Source: Klumpp 1974, "Apollo lunar descent guidance", Automatica 10(2), equations 8 to 12; defaults scaled to a
     thrust acceleration of 5 m/s2.
@@ -75,9 +75,7 @@ class ApolloGuidance(PolynomialGuidance):
         return self.time_from_jerk(self.search_time(first))
 
     def time_from_jerk(self, time: float) -> float:
-        """Return the time to go (s) for target_jerk, starting from an estimate; 0 if Newton's method does not
-        converge.
-        """
+        """Return the time to go (s) for target_jerk by Newton's method from an estimate; 0 without convergence."""
         dr, dv = self.remaining_over(time)
         constant = self.final_thrust() + vector(0.0, 0.0, -self.gravity)
         return jerk_time(dr, self.velocity, dv, constant, self.forward, self.target_jerk, time)

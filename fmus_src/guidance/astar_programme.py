@@ -28,9 +28,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
     )
 
     def angle(self, sine: float) -> float:
-        """Return the arcsine of an argument clamped to [-1, 1]; count arguments that exceed 1 by more than 1e-12 in
-        magnitude.
-        """
+        """Return the arcsine of an argument clamped to [-1, 1]; count an argument outside by more than 1e-12."""
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
             self.status = TerminalStatus.CLAMPED

@@ -94,7 +94,7 @@ class BankProgramme(Block):
             self.lead(before, self.time_since_reversal)
 
     def lead(self, before: float, s: float) -> None:
-        """Set the reference between the previous target ``before`` (rad) and the present one, ``s`` (s) after the
+        """Set the reference between the target ``before`` (rad) and the present target, ``s`` (s) after the
         reversal.
         """
         way = abs(self.target_bank - before)

@@ -1,6 +1,4 @@
-"""Convex powered-descent guidance: a least-propellant plan by an interior-point method, and a law that tracks the
-plan.
-"""
+"""Convex powered-descent guidance: least-propellant plans by an interior-point method, and a law that tracks them."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -38,7 +36,7 @@ class ConvexGuidance(ZemZevGuidance):
     because no plan exists. It is 2 if position, velocity or mass is not usable for planning, and 3 if no time exists at
     the start. With frozen_time_to_go the law is ZEM/ZEV.
 
-    Assumes constant gravity or gravity_correction.
+    Assumes constant gravity unless gravity_correction is set.
 
     Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; Vandenberghe 2010 (solver, with a Riccati
     recursion); time of flight and tracking: this repository. Problem and solver: docs/theory/convex_guidance.md.
@@ -123,9 +121,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.handed_over = not self.chosen
 
     def find_plan(self, bracket: TimeBracket, plan: list) -> PlanSummary:
-        """Compute a plan; if none exists with the glide slope, with a lower slope that contains the start, then
-        without one.
-        """
+        """Compute a plan; if the glide slope prevents it, use a lower slope that contains the start, then none."""
         task = self.task()
         first = bracket
         outside = self.glide_slope > 0.0 and self.glide_margin < 0.0

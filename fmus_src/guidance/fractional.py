@@ -27,7 +27,7 @@ class FractionalGuidance(PolynomialGuidance):
     with penalties on glide slope and tilt. The status is 3 if γ or γ_2 is negative or both are equal. With
     frozen_time_to_go there is no search, and k_r is 6 instead.
 
-    Assumes constant gravity or gravity_correction.
+    Assumes constant gravity unless gravity_correction is set.
 
     Source: Lu 2019 and 2020; the search: this repository.
     """

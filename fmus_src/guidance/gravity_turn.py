@@ -43,9 +43,7 @@ class GravityTurnGuidance(InformedGuidance):
         self.burning = self.burning and self.commanding  # a divert does not switch the engine off
 
     def local_gravity(self) -> tuple[Vector3, float]:
-        """Return the local vertical and the magnitude of gravity, minus the centrifugal acceleration, along it
-        (m/s2).
-        """
+        """Return the local vertical, and gravity minus the centrifugal acceleration (m/s2) along it."""
         up = vector(0.0, 0.0, 1.0)
         g = self.gravity
         if self.gravity_correction:
@@ -78,9 +76,7 @@ class GravityTurnGuidance(InformedGuidance):
                 self.brake(turn.ratio * g, speed, g * up)
 
     def predict(self, turn: GravityTurn, thrust: float, up: Vector3) -> None:
-        """Set the predicted propellant and miss of a gravity turn with a thrust acceleration (m/s2), over level
-        ground.
-        """
+        """Set predicted propellant and miss of a gravity turn over level ground, with a thrust acceleration (m/s2)."""
         self.predicted_propellant = -self.mass * expm1(-thrust * turn.duration / self.exhaust_speed())
         way = across(self.aim_position - self.position, up)
         level = across(self.velocity, up)

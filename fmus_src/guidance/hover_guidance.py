@@ -234,8 +234,7 @@ class HoverGuidance(HoverPlan):
             self.reference_velocity = -speed * self.up
 
     def reference_thrust(self, begin: float, end: float) -> float:
-        """Return the mean of the plan's thrust over mass (m/s2) between two times (s), or local gravity after the
-        plan's end.
+        """Return the plan's mean thrust over mass (m/s2) between two times (s); after its end, local gravity.
 
         The acceleration of a descent is not fed forward: feedback alone tracks the reference, which makes the motion
         smooth.

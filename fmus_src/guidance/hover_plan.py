@@ -150,9 +150,7 @@ class HoverPlan(Block, interface=True):
         self.plan_gravity = 0.5 * (self.gravity_at(self.origin) + self.gravity_at(self.goal))
 
     def can_plan(self) -> bool:
-        """Return True if all data are finite and the engine can lift the vehicle; otherwise hold the position with
-        status 3.
-        """
+        """Return True if all data are finite and the engine can lift the vehicle; if not, hold with status 3."""
         fine = is_finite(self.position) and is_finite(self.velocity) and is_finite(self.target_position)
         fine = fine and math.isfinite(self.mass) and self.mass > 0.0
         fine = fine and self.maximum_thrust > self.mass * self.plan_gravity
@@ -256,9 +254,7 @@ class HoverPlan(Block, interface=True):
         )
 
     def take_polynomial(self, duration: float, spent: float) -> None:
-        """Use the polynomial with this duration (s) and impulse ``spent`` (m/s) as the plan; set status 3 if they
-        are not finite.
-        """
+        """Plan the polynomial of this duration (s) and impulse ``spent`` (m/s); status 3 if these are not finite."""
         if duration > 0.0 and math.isfinite(duration) and math.isfinite(spent):
             self.plan_kind = PlanKind.POLYNOMIAL
             self.duration = duration
@@ -305,9 +301,7 @@ class HoverPlan(Block, interface=True):
         return cross(turning.direction, turning.rate)
 
     def plan_impulse(self, begin: float, end: float) -> float:
-        """Return the integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its
-        duration.
-        """
+        """Return the integral (m/s) of thrust over mass between two times (s) after the start of the plan."""
         if self.plan_kind != PlanKind.POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
         first = thrust_along(self.transfer, begin, self.duration, self.lift())

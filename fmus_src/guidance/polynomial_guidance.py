@@ -52,7 +52,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     Every 2 s, until 10 s to go, the largest remaining thrust is compared with maximum_thrust; if the thrust is larger,
     another time is chosen, at most 30 times. Further violations are accepted with status 1.
 
-    Assumes constant gravity or gravity_correction, and thrust limits without a dead band.
+    Assumes constant gravity unless gravity_correction is set, and thrust limits without a dead band.
 
     Source: Lu 2019 and 2020; choice of time: this repository.
     """
@@ -163,9 +163,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return self.best_time(first, SHORTEST, SPACING, self.flown_kr)
 
     def time_left(self) -> float:
-        """Return the time to go (s), chosen at the start and when the thrust does not suffice, otherwise counted
-        down.
-        """
+        """Return the time to go (s), chosen at the start and when thrust does not suffice, otherwise counted down."""
         if self.plan_frozen():
             self.take_gain()
             return self.frozen_time_to_go

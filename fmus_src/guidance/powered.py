@@ -29,7 +29,7 @@ class PoweredGuidance(ZemZevGuidance):
     maximum_thrust, 2 if an iteration has no solution, and 3 if the iteration does not converge at the start, as in
     hovering descents. With frozen_time_to_go the law is ZEM/ZEV.
 
-    Assumes constant gravity or gravity_correction, and a known exhaust speed.
+    Assumes constant gravity unless gravity_correction is set, and a known exhaust speed.
 
     Source: Jaggers 1977; McHenry et al. 1979; thrust as an unknown: this repository.
     """

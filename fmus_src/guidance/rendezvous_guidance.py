@@ -202,9 +202,7 @@ class RendezvousGuidance(Block):
         return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
-        """Set planned attitude and angular velocity, and the planned angular acceleration half an attitude_period
-        later.
-        """
+        """Set planned attitude, angular velocity and, half an attitude_period later, angular acceleration."""
         duration = self.turn_end - self.turn_start
         angle = 0.0
         rate = 0.0

@@ -120,9 +120,7 @@ class SlewJerkLimited(SlewGuidance):
         self.duration = self.stop.profile.duration + self.turn.profile.duration + self.spin.profile.duration
 
     def choose_axis(self, rotation: Vector3) -> Vector3:
-        """Return the unit axis of a rotation vector (rad); for a zero rotation the axis of a boundary rate, or 0
-        without one.
-        """
+        """Return the unit axis of a rotation vector (rad); for zero rotation the axis of a boundary rate, or else 0."""
         if norm(rotation) > ALIGNED:
             return unit(rotation)
         if norm(self.start_angular_velocity) > 0.0:

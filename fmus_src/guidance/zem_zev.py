@@ -11,7 +11,7 @@ class ZemZevGuidance(PolynomialGuidance):
     ZEM and ZEV are the errors of position and velocity that would remain without thrust. For a fixed time to go T the
     law minimises the integral of the squared thrust acceleration.
 
-    Assumes constant gravity or gravity_correction.
+    Assumes constant gravity unless gravity_correction is set.
 
     Source: Cherry 1964 (E-guidance); Ebrahimi, Bahrami and Roshanian 2008; Guo, Hawkins and Wie 2011; time of least
     propellant within the thrust: this repository.

@@ -1,3 +1,3 @@
-"""Ports, and interfaces that only declare variables; an interface with computations is defined in the folder of its
+"""Ports, and interfaces that only declare variables; interfaces with computations are in the folders of their
 blocks.
 """

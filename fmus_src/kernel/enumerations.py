@@ -25,9 +25,7 @@ class _Member:
 
 
 class Enumeration:
-    """Base of enumerations; members are numbered in order from 0, or from n with ``class Phase(Enumeration,
-    first=n)``.
-    """
+    """Base of enumerations, with members numbered from 0, or from n with ``class Phase(Enumeration, first=n)``."""
 
     meanings: ClassVar[dict[int, str]] = {}  # by number
     names: ClassVar[dict[int, str]] = {}
@@ -43,8 +41,9 @@ class Enumeration:
 
     @classmethod
     def describe(cls, about: str) -> str:
-        """Return a description that lists all members, ``about: 0 good, 1 rate limited``; if ``about`` is empty, the
-        docstring replaces it.
+        """Return a description that lists all members: ``about: 0 good, 1 rate limited``.
+
+        If ``about`` is empty, the docstring of the class replaces it.
         """
         members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
         summary = (cls.__doc__ or "").partition("\n")[0].rstrip(".")

@@ -132,8 +132,7 @@ def inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def exponential(a: Matrix, t: float) -> Matrix:
-    """Return exp(a t) for a finite a: the series for a t/2^k, squared k times; k reduces the norm of a t/2^k to below
-    1/2.
+    """Return exp(a t) for a finite a: the series for a t/2^k with a norm below 1/2, squared k times.
 
     Source: Moler and Van Loan 2003, method 3.
     """

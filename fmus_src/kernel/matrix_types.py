@@ -196,9 +196,7 @@ def _refuse_size(actual: Any, required: Any) -> NoReturn:
 
 
 def _of_three(x: float, y: float, z: float) -> Vector3:
-    """Return a vector of three components; faster than `vector`, which must choose the size, in filters and rigid
-    bodies.
-    """
+    """Return a vector of three components, faster than `vector`, which chooses the size from its arguments."""
     created = Vector3()
     created.x = x
     created.y = y

@@ -20,8 +20,7 @@ OPERATIONS = (  # name, arguments, expression of a component
 
 
 def add_operators(owner: type, components: Sequence[str], make: str) -> None:
-    """Add to a class the operators ``+`` and ``-`` for two of its instances, and ``*`` and ``/`` for an instance and a
-    number.
+    """Add to a class ``+`` and ``-`` for two of its instances, and ``*`` and ``/`` for an instance and a number.
 
     ``make`` is an expression for an empty instance of the class ``Own``.
     """

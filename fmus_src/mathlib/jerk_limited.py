@@ -1,5 +1,4 @@
-"""Time-optimal rotation about an axis between two rates, within limits of rate, acceleration and jerk. Kernel
-functions.
+"""Time-optimal rotation about an axis between two rates with limited rate, acceleration and jerk. Kernel functions.
 
 A profile begins and ends without acceleration: a ramp from the first rate to a peak rate, a coast, and a ramp to the
 last rate, up to seven arcs of constant jerk. The peak rate is above both other rates if the angle is larger than the
@@ -92,8 +91,7 @@ def both_ramps(first: float, peak: float, last: float, acceleration: float, jerk
 
 
 def reach_peak(angle: float, first: float, last: float, limits: JerkLimits) -> float:
-    """Return the peak rate (rad/s), above the first and last rate, at which the ramps without a coast cover an angle
-    (rad).
+    """Return the peak rate (rad/s), above both other rates, at which ramps without a coast cover an angle (rad).
 
     The angle must lie between the angle of the direct ramp from first to last rate and the angle of the ramps with the
     peak at the limit. As a function of the peak, the angle of the ramps starts at the first of these and either grows,

@@ -1,13 +1,14 @@
 """The network operator: a control law as an upper triangular integer matrix. Kernel functions.
 
 Node j holds a number z_j. Above the diagonal, matrix[i, j] is the unary operation on the edge from
-node i to node j (0: no edge); matrix[j, j] is the binary operation that node j gathers its edges
-with. Sources start at their values, other nodes at the neutral element; then, row by row,
+node i to node j (0: no edge); matrix[j, j] is the binary operation by which node j combines its
+edges. Source nodes start at the values of the sources, other nodes at the neutral element; then,
+row by row,
 
     z_j <- binary_jj(z_j, unary_ij(z_i))
 
-so a node is complete when its own row begins. Powers and products are kept within +-LARGEST, and
-whatever the sources, nothing divides by zero or overflows.
+so a node is complete when its own row begins. Powers and products are limited to +-LARGEST, so
+that no source value causes a division by zero or an overflow.
 
     unary   1 z                 7 ln|z|                13 atan z            19 sgn(z) exp(-|z|)
             2 z^2               8 tanh(z/2)            14 z^3               20 z/2
@@ -18,7 +19,7 @@ whatever the sources, nothing divides by zero or overflows.
     binary  0 sum, 1 product, 2 maximum, 3 minimum
 
 Sources: Diveev 2010 (the method; 8 is written (1 - exp(-z))/(1 + exp(-z)) there); Diveev, Pupkov and
-Sofronova 2013 (size, sources and the numbers in use). The numbers of maximum and minimum are ours.
+Sofronova 2013 (size, sources and the numbers in use). The numbers of maximum and minimum are chosen here.
 """
 
 import math

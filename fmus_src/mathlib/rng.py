@@ -33,9 +33,7 @@ def reduce_modulo(high: float, low: float, m: float) -> float:
 
 
 def high_words(v: Vector3) -> Vector3:
-    """Return v / 65536 rounded to integers; the remainder has 16 bits, so its products with 32-bit numbers are
-    exact.
-    """
+    """Return v / 65536 rounded to integers; products of the 16-bit remainder with 32-bit numbers are exact."""
     return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 

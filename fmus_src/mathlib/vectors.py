@@ -73,7 +73,7 @@ def all_below(v: Vector, limit: float) -> bool:
 
 
 def smallest_component(a: Vector3) -> tuple[int, float]:
-    """Return the index and value of the first component of least magnitude, which gives the axis farthest from the
+    """Return index and value of the first component of least magnitude, which names the axis farthest from the
     vector.
     """
     k = 0

@@ -18,8 +18,7 @@ MODES = 4
 
 
 class ElasticModes(Block, interface=True):
-    """Up to four elastic or slosh modes in hybrid coordinates; the states of each are a displacement η and a momentum
-    p.
+    """Up to four elastic or slosh modes in hybrid coordinates, each with a displacement η and a momentum p.
 
     On a fixed base a mode is a linear oscillator of frequency W and damping ratio ζ; the motion of the base drives it.
     With participation L in translation and D in rotation about the undeformed centre of mass, spacecraft mass M and
@@ -94,7 +93,7 @@ class ElasticModes(Block, interface=True):
         return self.modal_coupling @ self.rotation.T
 
     def largest_frequency(self, mass: float, inverse_inertia: Matrix) -> float:
-        """Return the highest natural frequency (rad/s) of the free body, for its mass (kg) and inverse inertia (1/(kg
+        """Return the highest natural frequency (rad/s) of the free body, from mass (kg) and inverse inertia (1/(kg
         m2)).
 
         Its square is the largest eigenvalue of W (1 - L'L/M - D'I^-1 D)^-1 W; infinite if that matrix is not positive.
@@ -116,9 +115,7 @@ class ElasticModes(Block, interface=True):
         return self.inverse_modal_mass @ (momenta - self.rotation.T @ w)
 
     def modal_forces(self, displacements: Vector4, velocities: Vector4, acceleration: Vector3) -> Vector4:
-        """Return the time derivatives of the modal momenta for the acceleration (m/s2, body) that external forces give
-        the whole spacecraft.
-        """
+        """Return the time derivatives of the modal momenta, for an acceleration (m/s2, body) by external forces."""
         damping = self.mode_damping * self.mode_frequency * velocities
         stiffness = self.mode_frequency * self.mode_frequency * displacements
         return -(self.translation.T @ acceleration) - 2.0 * damping - stiffness

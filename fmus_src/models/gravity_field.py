@@ -57,9 +57,7 @@ class GravityField(SpaceModel, interface=True):
         )
 
     def third_body_gravity(self, r: Vector3) -> Vector3:
-        """Return the tidal acceleration (m/s2, inertial) by the third bodies, which excludes the central body's own
-        acceleration.
-        """
+        """Return the gravity of the third bodies minus the central body's acceleration by them (m/s2, inertial)."""
         if not self.third_bodies:
             return vector(0.0, 0.0, 0.0)
         other = MOON_PARAMETER

@@ -94,9 +94,7 @@ class SpaceModel(Block, interface=True):
         self.field_coefficients = igrf14(self.epoch)
 
     def locate(self, t: float) -> None:
-        """Set the pole axes of the central body and the positions of the Sun and the third body (m, inertial) for t
-        (s).
-        """
+        """Set the pole axes and the positions of the Sun and the third body (m, inertial) for t (s)."""
         time = self.epoch + t
         moon = moon_position(time)
         if self.central_body == CelestialBody.EARTH:

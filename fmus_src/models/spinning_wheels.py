@@ -79,9 +79,7 @@ class SpinningWheels(Block, interface=True):
         return vector(self.drag(speeds.w), self.drag(speeds.x), self.drag(speeds.y), self.drag(speeds.z))
 
     def drive(self, commands: Vector4) -> tuple[bool, bool]:
-        """Set applied_torques from commands (N m); return (True if a torque was limited, True if a wheel is at its
-        speed limit).
-        """
+        """Set applied_torques from commands (N m); return True for a limited torque, and True for a limited speed."""
         applied = [0.0] * WHEELS
         torque_limited = False
         speed_limited = False

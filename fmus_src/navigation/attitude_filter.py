@@ -45,7 +45,7 @@ class AttitudeFilter(Block):
 
     Frame: body; quaternions from body to inertial.
 
-    Assumes small errors relative to the plan, and inertia and jets as declared.
+    Assumes small errors relative to the plan, and known inertia and jets.
 
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
     See docs/theory/rendezvous.md.
@@ -159,9 +159,7 @@ class AttitudeFilter(Block):
         self.covariance[DISTURBANCE, DISTURBANCE] += scale * scale * dot(jump, jump)
 
     def predict(self, h: float) -> None:
-        """Propagate estimate and covariance by h (s), with total angular momentum changed by the jets and the
-        disturbance only.
-        """
+        """Propagate estimate and covariance by h (s); only jets and disturbance change the total angular momentum."""
         momentum_body = self.inertia * self.angular_velocity + self.last_momentum
         # half of the change by jets and disturbance over h; the rotation has the rate of the middle
         impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)

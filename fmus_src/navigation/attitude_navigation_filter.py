@@ -89,9 +89,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.turn_ends[0] = end
 
     def turned_on(self, q: Vector4) -> Vector4:
-        """Return an attitude measured at star_time, propagated to the present by the gyros at a constant rate in
-        each sample period.
-        """
+        """Return an attitude of star_time propagated by the gyros, at a constant rate in each sample period."""
         if self.star_time < 0.0:
             return q
         for i in range(TURNS):
@@ -178,9 +176,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.accept(sensor, h, variances, z)
 
     def is_new(self, counted: bool, measured: Vector3, reference: Vector3) -> bool:
-        """Return True for a new direction if it and its reference are finite and not 0; if they are not, set the
-        status.
-        """
+        """Return True for a new, usable direction; set the status if it or its reference is not finite or 0."""
         if not counted:
             return False
         if is_finite(measured) and is_finite(reference) and norm(measured) > 0.0 and norm(reference) > 0.0:

@@ -1,6 +1,4 @@
-"""Interface of observers of the orbital attitude, which estimate all angles and rates from measured roll, pitch and
-rates.
-"""
+"""Interface of observers of the orbital attitude, which estimate yaw and all rates from roll, pitch and gyro rates."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Navigation with correlated errors, like those of a filter."""
+"""Navigation with correlated errors, like the errors of a filter."""
 
 import math
 

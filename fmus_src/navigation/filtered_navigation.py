@@ -143,9 +143,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         """Propagate the covariance by h (s) under the specific force."""
 
     def weigh(self, row: Matrix, variance: float) -> float:
-        """Return the variance of a scalar's innovation; ``row`` contains the scalar's derivatives with respect to
-        the states.
-        """
+        """Return the variance of a scalar's innovation; ``row`` contains its derivatives with respect to the states."""
         return 0.0
 
     def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
@@ -173,9 +171,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
-        """Return the upward direction and the gravity gradient (1/s2), or 0 instead of the gradient if it is
-        neglected.
-        """
+        """Return the upward direction and the gravity gradient (1/s2), which is 0 if it is neglected."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if self.gravity_gradient and distance > 0.0:

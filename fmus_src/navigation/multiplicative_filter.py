@@ -42,7 +42,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
         self.rate = self.gyro_rate()
 
     def gyro_rate(self) -> Vector3:
-        """Return the new gyro sample (rad/s, body) if it is finite, else the last finite one."""
+        """Return the new gyro sample (rad/s, body) if it is finite, otherwise the last finite sample."""
         self.status = AttitudeNavigationStatus.GOOD
         if self.gyro_count == self.gyro_counted:
             return self.rate

@@ -101,9 +101,7 @@ class NoisyNavigation(Navigation):
         self.estimate[VELOCITY, 0] += acceleration * h
 
     def fix(self, first: int, truth: Vector3, sigma: float) -> None:
-        """Measure the three states from index ``first`` on, with errors of standard deviation sigma, and update the
-        estimate.
-        """
+        """Measure three states from index ``first`` on, with standard deviation sigma, and update the estimate."""
         for i in range(3):
             row = zeros(1, 6)
             row[0, first + i] = 1.0

@@ -52,9 +52,7 @@ class OrbitalFilter(AttitudeObserver):
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
-        """Propagate the covariance over a sample period, linearised at the angles (rad) and rates (rad/s) in its
-        middle.
-        """
+        """Propagate the covariance over a sample period, linearised at its middle angles (rad) and rates (rad/s)."""
         period = self.sample_period
         by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
         f = identity(6)  # 1 + T df/dx, with rates minus biases

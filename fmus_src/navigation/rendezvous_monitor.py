@@ -102,9 +102,7 @@ class RendezvousMonitor(Block):
         self.rodrigues = to_rodrigues(self.quaternion)
 
     def check_cone(self, relative: Vector3) -> None:
-        """Set cone_angle for the robot's position (m, inertial) relative to the object, and closing_start when
-        closing begins.
-        """
+        """Set cone_angle for the robot's position (m, inertial) relative to the object, and latch closing_start."""
         self.cone_angle = atan2(norm(cross(relative, self.target_velocity)), dot(relative, self.target_velocity))
         if self.closing_start != ClosingStart.AWAITED or self.range > self.closing_range:
             return

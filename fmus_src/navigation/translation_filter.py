@@ -38,7 +38,7 @@ class TranslationFilter(Block):
 
     Frames: inertial, except for the force, in body axes.
 
-    Assumes equal errors in all axes, and a mass as declared.
+    Assumes equal errors in all axes, and a known mass.
 
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2. See docs/theory/rendezvous.md.
     """

@@ -116,9 +116,7 @@ class AttitudeMoonLander(MoonLander):
         return low
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained by thrust
-        (m/s).
-        """
+        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained (m/s)."""
         lasting = 0.0
         gained = vector(0.0, 0.0, 0.0)
         before = self.velocity
@@ -138,9 +136,7 @@ class AttitudeMoonLander(MoonLander):
         return gained
 
     def go_back(self, h: float, acceleration: Vector3) -> None:
-        """Move the vehicle back from below the ground to altitude 0, by at most h (s), with the step's mean
-        acceleration (m/s2).
-        """
+        """Move the vehicle from below the ground back to altitude 0, by at most h (s), with an acceleration (m/s2)."""
         below = self.position
         last = self.velocity
         back = 0.0

@@ -298,7 +298,7 @@ class EntryCapsule(Block):
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:
-        """Return the torque (N m) of the two jets of an axis at ``time`` (s) after the start of a pulse of signed
+        """Return the torque (N m) of an axis's two jets at ``time`` (s) after the start of a pulse of signed
         ``length`` (s).
         """
         if length > time:

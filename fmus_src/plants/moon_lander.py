@@ -136,9 +136,7 @@ class MoonLander(Block, interface=True):
         return Burn(start=first, middle=middle, end=thrust.end / self.mass, gain=gain)
 
     def advance(self, t: float, h: float, commanded: float) -> Vector3:
-        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained by thrust
-        (m/s).
-        """
+        """Advance the motion by h (s) under a constant commanded thrust (N); return the velocity gained (m/s)."""
         burn = self.burn(h, commanded)
         simpson = h * (burn.start + 4.0 * burn.middle + burn.end) / 6.0
         if simpson > 0.0:

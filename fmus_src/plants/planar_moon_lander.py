@@ -92,9 +92,7 @@ class PlanarMoonLander(Block):
         self.publish()
 
     def derivatives(self, t: float, s: PlanarMotion, force: float, flow: float) -> PlanarMotion:
-        """Return the time derivative of the motion under a thrust (N), ``t`` (s) after the start of a mass flow
-        (kg/s).
-        """
+        """Return the time derivative of the motion under a thrust (N) and mass flow (kg/s) that started t (s) ago."""
         acceleration = force / (self.mass - t * flow)
         radius = self.moon_radius + s.altitude
         ratio = self.moon_radius / radius

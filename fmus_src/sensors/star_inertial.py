@@ -136,9 +136,7 @@ class StarInertial(RandomSensor):
         return rotation
 
     def is_within(self, aim_inertial: Vector3, direction: Vector3, angle: float) -> bool:
-        """Return True if a direction is within an angle (rad) of the unit vector ``aim_inertial``; False for an
-        angle of 0.
-        """
+        """Return True if a direction is within an angle (rad) of ``aim_inertial``; False for an angle of 0."""
         if angle > 0.0:
             return dot(aim_inertial, direction) > cos(angle) * norm(direction)
         return False

@@ -43,9 +43,7 @@ class CommandSwitch(Block):
         self.switch()
 
     def switch(self) -> None:
-        """Output the command of the source; after a plan request hold the last command until the hover guidance has the
-        plan.
-        """
+        """Output the command of the source; after a plan request hold the last command until a plan answers it."""
         if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
             self.pass_on()
         self.command.thrust_acceleration = 0.0

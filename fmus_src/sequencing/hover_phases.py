@@ -61,8 +61,8 @@ class HoverPhases(LandingSequence, interface=True):
     )
 
     def begin_first_hover(self) -> None:
-        """Request a capture to the hover over the site; a simulation that starts in this phase waits for the first
-        inputs.
+        """Request a capture to the hover over the site; a simulation that starts here holds until inputs are
+        sampled.
         """
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
         if self.since_start(self.sampled_time) < 0.0:
@@ -84,9 +84,7 @@ class HoverPhases(LandingSequence, interface=True):
         return close and norm(self.sampled_velocity) <= self.settled_speed
 
     def choose(self, ahead: float, chosen_since: float) -> bool:
-        """Hover while the site is re-designated, from ``chosen_since`` (s) on; return True when the re-designation is
-        over.
-        """
+        """Hover while the site is re-designated, from ``chosen_since`` (s) on; return True when this is over."""
         waited = ahead - chosen_since + ROUNDING
         if waited >= self.hover_time and self.is_settled():
             return True

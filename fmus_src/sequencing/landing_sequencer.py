@@ -141,9 +141,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
                 self.is_sampled = False
 
     def decide(self, t: float, ahead: float, length: float) -> None:
-        """Set the outputs from ``ahead`` (s) on for one decision period of ``length`` (s), from the inputs at ``t``
-        (s).
-        """
+        """Set the outputs for one period of ``length`` (s) from ``ahead`` (s) on, from the inputs at ``t`` (s)."""
         if not self.mass_is_known:
             self.mass_is_known = True
             self.phase_mass[self.phase - 1] = self.sampled_mass

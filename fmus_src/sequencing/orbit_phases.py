@@ -150,9 +150,7 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_time_to_burn(self, burn: float) -> bool:
-        """Return True if a burn (s) from now has its middle half a revolution plus braking_range before the site, or
-        later.
-        """
+        """Return True once the middle of a burn (s) would be half a revolution plus braking_range before the site."""
         turned = norm(self.sampled_velocity) / norm(from_centre(self.sampled_position, self.moon_radius))
         place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
         return central_angle(self.sampled_position, self.moon_radius) <= place

@@ -72,8 +72,9 @@ def normal_distribution(x: float) -> float:
 
 
 def normal_quantile(p: float) -> float:
-    """Return the x below which a standard normal variable lies with probability p: infinite for 0 and 1, NaN for p
-    outside [0, 1].
+    """Return the x below which a standard normal variable lies with probability p.
+
+    The result is infinite for p = 0 and p = 1, and NaN for p outside [0, 1].
     """
     if p != p or p < 0.0 or p > 1.0:
         return math.nan

@@ -49,8 +49,7 @@ def nearest_turn(angle: float, reference: float) -> float:
 
 
 def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
-    """Return (True, angles (rad)) for the angles that give a momentum under the law, or (False, ``near``) without a
-    solution.
+    """Return (True, angles (rad)) that give a momentum under the law, or (False, ``near``) without a solution.
 
     The angles are shifted by whole revolutions to be nearest to ``near`` (rad).
     """

@@ -117,8 +117,7 @@ def pseudo_inverse(strength: JetStrength, demand: Wrench, thrust: list) -> bool:
 
 
 def shift_and_scale(thrust: list, maximum: float) -> float:
-    """Raise the thrusts of a pseudo-inverse until the least is 0, then scale them by maximum/largest if this is below
-    1.
+    """Raise the thrusts of a pseudo-inverse until the least is 0, then scale all so that none exceeds ``maximum``.
 
     Returns the scale, 1 without scaling. Equal thrusts give no wrench, so the resulting wrench is the original wrench
     times the scale. This is the rule of the paper.
@@ -141,8 +140,7 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
 
 
 def least_propellant(thrust: list, maximum: float) -> float:
-    """Change the thrusts of a pseudo-inverse to the thrusts of least sum, from 0 to ``maximum`` each, for the same
-    wrench.
+    """Change the thrusts of a pseudo-inverse to the least sum for the same wrench, with 0 to ``maximum`` each.
 
     For opposite corners i and 9 - i let s = p_i + p_(9-i), d = p_i - p_(9-i) and u = n d, with the signs n of the
     second null vector. A shift S of all s and l of all u gives no wrench; thrusts are not negative if |u + l| <= s + S.

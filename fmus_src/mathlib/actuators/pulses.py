@@ -4,9 +4,7 @@ from ..vectors import Vector3, vector
 
 
 def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
-    """Return the time (s since the start of the pulses) at which the next pulse after ``time`` ends, at most
-    ``end``.
-    """
+    """Return the time (s from the start of the pulses) of the next end of a pulse after ``time``, at most ``end``."""
     first = end
     for i in range(3):
         length = abs(pulses[i])

@@ -16,9 +16,7 @@ SMALLEST_VOLUME = 1e-9  # volume spanned by three unit axes, below which they co
 
 
 def unit_axes(rows: Matrix) -> Matrix:
-    """Return A (3 x 4) from the axes, of any length, in the rows of a 4 x 3 matrix; an axis of length 0 gives a
-    column of zeros.
-    """
+    """Return A (3 x 4) from a 4 x 3 matrix with the axes, of any length, as rows; an axis of 0 gives a column of 0."""
     a = zeros(3, WHEELS)
     for j in range(WHEELS):
         length = norm(rows[j, 0:3])

@@ -15,10 +15,9 @@ class TurningDirection(Record):
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:
-    """Return a unit vector turned towards the unit vector ``goal`` by at most ``largest`` (rad), and the angle (rad)
-    that remains.
+    """Return a unit vector turned towards ``goal`` by at most ``largest`` (rad), and the remaining angle (rad).
 
-    For opposite vectors the rotation is towards the coordinate axis farthest from them.
+    ``goal`` is a unit vector. For opposite vectors the rotation is towards the coordinate axis farthest from them.
     """
     cosine = clip(dot(direction, goal), -1.0, 1.0)
     side = goal - cosine * direction

@@ -26,9 +26,7 @@ def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float
 
 
 def turn_axis(s: AxisState, acceleration: Vector3, limit: float, h: float) -> AxisState:
-    """Return axis and angular rate after h (s) under constant angular acceleration, by one fourth-order Runge-Kutta
-    step.
-    """
+    """Return axis and rate after h (s) of constant angular acceleration, by one fourth-order Runge-Kutta step."""
     end = runge_kutta_4(axis_derivatives, 0.0, s, h, acceleration, limit)
     length = norm(end.axis)
     if not length > 0.0:

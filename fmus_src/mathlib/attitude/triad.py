@@ -32,9 +32,7 @@ def from_axes(x: Vector3, y: Vector3, z: Vector3) -> Vector4:
 
 
 def from_pair(first: Vector3, second: Vector3) -> Vector4:
-    """Return the attitude with x along the first vector and z along first x second, for vectors that are not
-    parallel.
-    """
+    """Return the attitude with x along the first vector and z along first x second, which must not be parallel."""
     x = first / norm(first)
     across = cross(first, second)
     z = across / norm(across)

@@ -26,7 +26,7 @@ def stagnation_coefficient(mach: float) -> float:
 def cap_tables(
     base_radius: float, cap_radius: float, machs: list[float], degrees: list[float]
 ) -> tuple[list[float], list[float]]:
-    """Return tables of Cx and Cy of a cap (radii in m), with one row per Mach number and one column per total angle of
+    """Return tables of Cx and Cy of a cap (radii in m), by row for a Mach number, by column for a total angle of
     attack.
 
     Angles are in degrees; values are rounded to six decimals, as in the published table.

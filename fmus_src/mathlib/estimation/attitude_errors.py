@@ -19,8 +19,7 @@ SMALL = 1e-6  # rad, rotation below which the factors of [turn] have their limit
 
 
 def transition(turn: Vector3, h: float) -> Matrix:
-    """Return the transition matrix F (6 x 6) over h (s), in which the body rotates by the rotation vector ``turn``
-    (rad).
+    """Return the transition matrix F (6 x 6) over h (s), during which the body rotates by the vector ``turn`` (rad).
 
     The rotation error in body axes rotates by -turn; a bias error, times -h (1 - (1 - cos a)/a^2 [turn] + (a - sin
     a)/a^3 [turn]^2) with a = |turn|, is added to it.

@@ -23,8 +23,7 @@ SENSOR = block(6, 9)
 def dead_reckon(
     position: Vector3, velocity: Vector3, force: Vector3, before: Vector3, radius: float, mu: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Return position (m) and velocity (m/s) after h (s), from the mean specific forces of this step and the previous
-    one.
+    """Return position (m) and velocity (m/s) after h (s), from the mean specific forces of two successive steps.
 
     Gravity is integrated by the trapezoidal rule. The specific force is linear in time, with the slope between the two
     means; a constant specific force in each step would give a position error of h^2/12 times its change since the
@@ -37,8 +36,9 @@ def dead_reckon(
 
 
 def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """Return the error b + diag(k) f + w x f (m/s2) of the specific force f, with bias b (m/s2), scale factors k and
-    rotation w (rad).
+    """Return the error b + diag(k) f + w x f of a specific force f (m/s2).
+
+    b is the bias (m/s2), k are the scale factors and w is the small rotation (rad).
     """
     return add_cross(bias + scale_factor * f, rotation, f)
 
@@ -46,9 +46,7 @@ def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: 
 def propagate(
     position: Vector3, velocity: Vector3, added: Vector3, up: Vector3, gradient: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Return the errors of position and velocity after h (s) in which sensor errors have added ``added`` (m/s2) to
-    specific force.
-    """
+    """Return the errors of position and velocity after h (s) with an error ``added`` (m/s2) in specific force."""
     a = added
     if gradient > 0.0:
         a = a - gravity_difference(position + 0.5 * h * velocity, up, gradient)
@@ -56,9 +54,7 @@ def propagate(
 
 
 def start_errors(position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> Matrix:
-    """Return the initial covariance P (15 x 15) from the standard deviations of five vectors, each equal for the
-    three axes.
-    """
+    """Return the initial covariance P (15 x 15) from five standard deviations, each for three axes."""
     p = zeros(STATES, STATES)
     p[POSITION, POSITION] = position * position * identity(3)
     p[VELOCITY, VELOCITY] = velocity * velocity * identity(3)

@@ -28,8 +28,7 @@ def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
 
 
 def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
-    """Return the covariance, with a disturbance, after h (s) with white noise also in the derivative of the
-    disturbance.
+    """Return the covariance with a disturbance after h (s), with white noise also in the disturbance's derivative.
 
     ``d`` is the spectral density of this noise (value^2/s^5).
     """
@@ -44,9 +43,7 @@ def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
 
 
 def measure_chain(p: Matrix, variance: float) -> tuple[Matrix, Matrix, float]:
-    """Return the gain, the new covariance and the innovation variance for a measurement of the value with a variance
-    (> 0).
-    """
+    """Return gain, covariance and innovation variance after a measurement of the value with a variance (> 0)."""
     h = zeros(1, len(p))
     h[0, TRACKED] = 1.0
     s = innovation_variance(p, h, variance)

@@ -52,9 +52,7 @@ def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
 
 
 def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
-    """Return the integral (m/s) of thrust over mass between two times (s), by the rocket equation; 0 if no mass is
-    left.
-    """
+    """Return the integral (m/s) of thrust over mass between two times (s); 0 if no mass is left."""
     before = 1.0 - propellant(s, vehicle, begin)
     after = 1.0 - propellant(s, vehicle, end)
     if not (before > 0.0 and after > 0.0):

@@ -1,5 +1,4 @@
-"""Continuation from one simplified hover-to-hover programme to another with a larger distance or time. Kernel
-functions.
+"""Continuation of simplified hover-to-hover programmes to larger distances or times. Kernel functions.
 
 Programmes, shapes and vehicles are defined in `shape` and `motion`; x and y (m) are the coordinates of the target in
 the plane of the transfer. The continuation was developed for this repository.
@@ -51,8 +50,7 @@ def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
 
 
 def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return the vertical programme p tilted to end at a horizontal distance of about x (m), or p if that is
-    impossible.
+    """Return the vertical programme p tilted to end at about x (m) horizontally, or p if this is impossible.
 
     The thrust angle is about -u (1 - t/t7) + v t/t7, and the end depends linearly on u and v, which are determined by x
     and by rest at the end.
@@ -101,9 +99,7 @@ def solve_farther(
 
 
 def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
-    """Continue the vertical programme p to a programme without first burn that reaches x or comes as near as
-    possible.
-    """
+    """Continue the vertical programme p to one without first burn that reaches x or comes as near as possible."""
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
@@ -126,16 +122,12 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
 
 
 def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return the programme with first burn that ends at time ``end`` (s), starting from p, which has a similar end
-    time.
-    """
+    """Return the programme with first burn that ends at ``end`` (s), starting from p with a similar end."""
     return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
 
 
 def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Continue p in steps to the programme with first burn that ends at ``end`` (s), or to the last one that a step
-    reaches.
-    """
+    """Continue p in steps to the programme with first burn that ends at ``end`` (s), or to the last step possible."""
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
         left = end - p.t7

@@ -28,9 +28,7 @@ class PlannedProgramme(Record):
 
 
 class Bracket(Record):
-    """Programme that uses less propellant than its neighbours with earlier and later end times, if they are
-    feasible.
-    """
+    """Programme that uses less propellant than those with an earlier and a later end time, if these are feasible."""
 
     programme = Field(HoverProgramme, description="programme with the least propellant found")
     before = Field(
@@ -172,9 +170,7 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Bracket:
-    """Shift the end time of p by ``way`` (s), then by growing steps, as long as this reduces the propellant; return
-    a bracket.
-    """
+    """Shift the end time of p by ``way`` (s), then by growing steps, while this reduces the propellant."""
     minimum = propellant_fraction(p, vehicle)
     before = p.t7
     beyond = p.t7 + way

@@ -87,8 +87,7 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 def invert_sensitivities(
     kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4
 ) -> tuple[Matrix, bool]:
-    """Return (derivatives of the free times with respect to the residual r at p, 4 x 4; True), or False if they do not
-    exist.
+    """Return the derivatives (4 x 4) of the free times with respect to the residual r at p, and True if they exist.
 
     They are computed from finite differences.
     """
@@ -121,8 +120,7 @@ def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
 
 
 def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> HoverSolution:
-    """Return the programme close to ``start`` that ends at (x, y) (m) at rest, or ``start``, not feasible, if none is
-    found.
+    """Return the programme close to ``start`` that ends at (x, y) (m) at rest, or ``start`` if none is found.
 
     Steps are halved until the residual decreases; while each step reduces it to less than a tenth, the sensitivities
     are reused. The free times are tp; t2 and t5 except for VERTICAL; w for WITH_FIRST_BURN, otherwise t7.

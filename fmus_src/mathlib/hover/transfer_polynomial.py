@@ -80,8 +80,9 @@ class Capture(Record):
 def transfer(
     position: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float
 ) -> Transfer:
-    """Return the transfer from a position (m), velocity, acceleration and jerk to rest at ``goal``, with jerk 0 at
-    the end.
+    """Return the transfer from a position (m), velocity, acceleration and jerk to rest at ``goal``.
+
+    The jerk at the end is 0.
     """
     v = speed * duration
     a = 0.5 * acceleration * duration * duration
@@ -159,9 +160,7 @@ def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> Thrus
 
 
 def slow_duration(way: float, speed: float, acceleration: float) -> float:
-    """Return the duration (s) of a transfer from rest over a distance (m) within limits of speed and acceleration,
-    both > 0.
-    """
+    """Return the duration (s) of a transfer from rest over a distance (m) within a speed and an acceleration (> 0)."""
     time = SHORTEST
     if FASTEST * way / speed > time:
         time = FASTEST * way / speed

@@ -27,9 +27,7 @@ def redesignate(site: Vector3, move: Vector2, radius: float) -> Vector3:
 
 
 def within_reach(move: Vector2, reach: float) -> tuple[bool, Vector2]:
-    """Return (True, move) if the move is not longer than ``reach`` (m), otherwise (False, move shortened to
-    ``reach``).
-    """
+    """Return (True, move) if the move is at most ``reach`` (m) long, otherwise (False, move shortened to it)."""
     length = math.sqrt(move.x * move.x + move.y * move.y)
     if length <= reach:
         return True, move

@@ -31,9 +31,7 @@ class DescentShape(Record):
 
 
 class DescentProfile(Record):
-    """Thrust acceleration final + first s^gamma + second s^gamma_2, with s the fraction of the time to go that is
-    left.
-    """
+    """Thrust acceleration final + first s^gamma + second s^gamma_2, with s = time to go/initial time to go."""
 
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     first = Field(Vector3, unit="m/s2", description="coefficient of s^gamma")
@@ -115,8 +113,7 @@ def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time:
 def jerk_time(
     dr: Vector3, v: Vector3, dv: Vector3, constant: Vector3, forward: Vector3, jerk: float, time: float
 ) -> float:
-    """Return the time to go (s) of a quartic that has this ``jerk`` (m/s3) along ``forward`` at the target; 0 if none
-    exists.
+    """Return the time to go (s) of a quartic with this ``jerk`` (m/s3) along ``forward`` at the target; 0 if none.
 
     ``constant`` is the sum of thrust acceleration and gravity (m/s2) at the target; ``time`` (s) is the initial value
     of Newton's method. Source: Klumpp 1974, equation 12.

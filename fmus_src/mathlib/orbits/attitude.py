@@ -68,7 +68,7 @@ def radial_direction(a: AngleFunctions) -> Vector3:
 
 
 def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
-    """Return the time derivatives (rad/s) of the angles for an angular velocity w (rad/s, body) and orbital rate w0
+    """Return the time derivatives (rad/s) of the angles for an angular velocity w (body) and orbital rate w0
     (rad/s).
     """
     q = w.y * a.cos_roll - w.z * a.sin_roll
@@ -101,8 +101,7 @@ def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Ma
 def angular_acceleration(
     a: AngleFunctions, w: Vector3, torque: Vector3, inertia: Matrix, inverse_inertia: Matrix, w0: float
 ) -> Vector3:
-    """Return the angular acceleration w' (rad/s2, body) of a rigid body under gravity gradient and a torque (N m,
-    body).
+    """Return w' (rad/s2, body) of a rigid body under gravity gradient and a torque (N m, body).
 
     J w' = 3 w0^2 j x (J j) + (J w) x w + torque, with j radially up and the inertia J (kg m2), which is passed with its
     inverse.

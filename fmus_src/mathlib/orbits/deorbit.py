@@ -40,8 +40,7 @@ def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> T
 
 
 def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
-    """Return the speed (m/s) at the apocentre of an ellipse with these distances (m) of apocentre and pericentre from
-    the centre.
+    """Return the speed (m/s) at the apocentre of an ellipse, from its apocentre and pericentre distances (m).
 
     Source: vis-viva equation, for example Battin 1999, section 3.4.
     """
@@ -51,10 +50,9 @@ def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
 def deorbit_burn(
     position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
 ) -> float:
-    """Return the time (s) of a burn with ``acceleration`` (m/s2) after which ``position`` is the apocentre of the
-    target ellipse.
+    """Return the burn time (s) with ``acceleration`` (m/s2) that makes ``position`` the apocentre of an ellipse.
 
-    ``pericentre`` is the distance (m) of the ellipse's pericentre from the centre. The time is negative if the
+    ``pericentre`` is the distance (m) of the ellipse's pericentre from the Moon's centre. The time is negative if the
     horizontal speed is already too small; the vertical speed is ignored. ``position`` must not be the centre.
     """
     up = vertical_at(position, radius)

@@ -8,8 +8,7 @@ from .ephemerides import SUN_RADIUS
 
 
 def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
-    """Return the visible fraction of the Sun's disk, 0 to 1, at a position (m) near a sphere that casts a shadow
-    (radius in m).
+    """Return the visible fraction of the Sun's disk, 0 to 1, at a position (m) near a sphere with a radius (m).
 
     The positions of the point and of the Sun are relative to the sphere's centre, in the same frame. Refraction and
     limb darkening are neglected. At or below the surface of the sphere there is full light if the Sun is above the
@@ -35,9 +34,7 @@ def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
 
 
 def disk_angle(radius: float, distance: float) -> float:
-    """Return the apparent angular radius (rad) of a sphere at a distance (m) from its centre; pi/2 inside the
-    sphere.
-    """
+    """Return the apparent angular radius (rad) of a sphere from a distance (m) to its centre; pi/2 inside it."""
     if radius >= distance:
         return 0.5 * math.pi
     return asin(radius / distance)

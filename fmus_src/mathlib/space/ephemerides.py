@@ -24,9 +24,7 @@ OBLIQUITY = 23.43929111 * DEGREE  # at J2000.0
 
 
 def from_ecliptic(longitude: float, latitude: float, distance: float) -> Vector3:
-    """Return a position (m, GCRS axes) from longitude and latitude (rad) in the ecliptic of J2000.0 and a distance
-    (m).
-    """
+    """Return a position (m, GCRS axes) from ecliptic longitude and latitude (rad, J2000.0) and a distance (m)."""
     x = distance * cos(latitude) * cos(longitude)
     y = distance * cos(latitude) * sin(longitude)
     z = distance * sin(latitude)

@@ -22,9 +22,7 @@ SCALE_HEIGHT = (  # km
 
 
 def exponential_density(h: float) -> float:
-    """Return the density (kg/m3) at a height h (m); constant below 100 km, extrapolated from the last row above 1000
-    km.
-    """
+    """Return the density (kg/m3) at a height h (m); constant below 100 km, extrapolated above 1000 km."""
     kilometres = 1e-3 * h
     if kilometres < HEIGHT[0]:
         return DENSITY[0]

@@ -10,8 +10,7 @@ SECOND_SQUARED = ECCENTRICITY_SQUARED / (1.0 - ECCENTRICITY_SQUARED)  # square o
 
 
 def geodetic_height(equatorial: float, z: float) -> float:
-    """Return the height (m) above the ellipsoid of a point at a distance (m) from the axis and z (m) north of the
-    equator plane.
+    """Return the height (m) above the ellipsoid, at a distance (m) from the axis and z (m) from the equator plane.
 
     One iteration of Bowring's formula is accurate to 2.4e-9 m from 100 to 1500 km of height. The point must not be the
     Earth's centre. Source: Bowring 1976.

@@ -22,8 +22,8 @@ SIZE = 14  # rows and columns of a matrix of coefficients: degrees 0 to 13
 
 
 def schmidt_normalisation(n: int, m: int) -> float:
-    """Return the factor from a Schmidt quasi-normalised to an unnormalised coefficient: sqrt((2 - [m = 0]) (n - m)!/(n
-    + m)!).
+    """Return the factor sqrt((2 - [m = 0]) (n - m)!/(n + m)!) from a Schmidt quasi-normalised to an unnormalised
+    coefficient.
     """
     if m == 0:
         return 1.0
@@ -34,8 +34,9 @@ def schmidt_normalisation(n: int, m: int) -> float:
 
 
 def full_normalisation(n: int, m: int) -> float:
-    """Return the factor from a fully normalised to an unnormalised coefficient: sqrt(2n + 1) times
-    `schmidt_normalisation`.
+    """Return the factor from a fully normalised to an unnormalised coefficient.
+
+    It is sqrt(2n + 1) times `schmidt_normalisation`.
     """
     return math.sqrt(float(2 * n + 1)) * schmidt_normalisation(n, m)
 

@@ -37,8 +37,7 @@ HIGHEST = (  # 1e-12 kg/m3, at the apex of the bulge
 
 
 def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
-    """Return the fraction of the bulge at a position, cos^n of half the angle from its apex: 1 at the apex, 0 opposite
-    to it.
+    """Return the bulge fraction cos^n of half the angle from the apex: 1 at the apex, 0 opposite to it.
 
     ``sun`` is the unit vector to the Sun; both vectors are inertial and relative to the Earth's centre. The exponent n
     is 2 for orbits of low inclination and 6 for polar orbits.

@@ -27,9 +27,7 @@ class SurfaceLoad(Record):
 
 
 def pressure_at(distance: float, illumination: float) -> float:
-    """Return the solar radiation pressure (N/m2) at a distance (m) from the Sun, with the visible fraction of the
-    Sun's disk.
-    """
+    """Return the solar radiation pressure (N/m2) at a distance (m) from the Sun, for a visible fraction of its disk."""
     ratio = ASTRONOMICAL_UNIT / distance
     return SOLAR_PRESSURE * ratio * ratio * illumination
 
@@ -64,9 +62,7 @@ def plate_pressure(plates: Matrix, pressure: float, sun: Vector3) -> SurfaceLoad
 
 
 def sphere_drag(area: float, coefficient: float, density: float, velocity: Vector3) -> Vector3:
-    """Return the drag force (N) on a sphere of a cross-section (m2) at a velocity (m/s) relative to air of a density
-    (kg/m3).
-    """
+    """Return the drag force (N) on a sphere with a cross-section (m2), for a velocity (m/s) and a density (kg/m3)."""
     return -(0.5 * density * coefficient * area * norm(velocity)) * velocity
 
 

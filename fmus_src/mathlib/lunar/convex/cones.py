@@ -143,8 +143,7 @@ def divide_by_lambda(c: list, row: int, size: int) -> None:
 
 
 def inverse_step(c: list, row: int, size: int, field: int) -> float:
-    """Return the inverse of the step along the scaled ``field`` at which lambda leaves the cone; 0 or less if it stays
-    inside.
+    """Return the inverse of the step along ``field`` at which lambda leaves the cone; 0 or less if it never does.
 
     Source: Vandenberghe 2010, section 8.3.
     """

@@ -133,9 +133,7 @@ def roll_out(p: DescentProblem, expansion: list, k: int, point: list) -> None:
 
 
 def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list, field: int) -> None:
-    """Set the rows of ``c`` from ``field`` on to the slacks of the point x for ``affine`` = 1, or to their linear
-    terms for 0.
-    """
+    """Set the rows of ``c`` from ``field`` on: slacks of the point x for ``affine`` = 1, their linear terms for 0."""
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k
@@ -158,9 +156,7 @@ def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list
 
 
 def set_gradient(p: DescentProblem, expansion: list, c: list, field: int, weight: float, gradient: list) -> None:
-    """Set ``gradient`` (as a point) to the gradient of ``weight`` times the objective minus the product of slacks
-    and the rows of ``field``.
-    """
+    """Set ``gradient`` (as a point) for the objective times ``weight`` minus the slacks times the rows of ``field``."""
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k

@@ -46,9 +46,7 @@ def set_end_hessian(c: list, cost: list) -> None:
 
 
 def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: list, m: list, cost: list) -> None:
-    """Add the Hessian of interval ``k`` to the control terms R (4 x 4), the mixed terms (4 x 7) and the state terms
-    (7 x 7).
-    """
+    """Add the Hessian of interval ``k`` to its terms in the control (4 x 4), mixed (4 x 7) and in the state (7 x 7)."""
     row = STAGE * k
     half = 0.5 * p.step / p.exhaust
     upper_limit = expansion[UPPER_LIMIT + k]
@@ -81,8 +79,8 @@ def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: li
 
 
 def decompose(r: list, gains: list, at: int) -> bool:
-    """Store the Cholesky factor of R (4 x 4), with inverted diagonal, in ``gains``; return False if a pivot is not
-    positive.
+    """Store the Cholesky factor of R (4 x 4), diagonal inverted, in ``gains``; return False for a pivot of 0 or
+    less.
     """
     for j in range(CONTROL):
         for i in range(j, CONTROL):
@@ -212,8 +210,7 @@ def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, ste
 
 
 def dual_residual(p: DescentProblem, gradient: list, costate: list) -> float:
-    """Set the costates (7 per node) and return the largest derivative of the Lagrangian with respect to a control or a
-    bound.
+    """Set the costates (7 per node); return the largest derivative of the Lagrangian by a control or a bound.
 
     `set_gradient` sets the ``gradient`` with the multipliers.
     """

@@ -23,8 +23,8 @@ def interval_at(step: float, elapsed: float) -> int:
 
 
 def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3]:
-    """Return position (m) and velocity (m/s) of a plan with intervals of ``step`` (s) at ``elapsed`` (s) after its
-    start.
+    """Return a plan's position (m) and velocity (m/s) at ``elapsed`` (s) after its start; intervals take ``step``
+    (s).
     """
     k = interval_at(step, elapsed)
     time = elapsed - float(k) * step
