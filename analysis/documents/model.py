@@ -43,7 +43,7 @@ class Medium(Enum):
 class Text:
     """A statement of a result, without a full stop; ``style`` applies to a page.
 
-    ``is_wrapped`` lets a terminal break a long one into several lines.
+    ``is_wrapped`` lets a terminal break a long statement into several lines.
     """
 
     kind: ClassVar[str] = "text"

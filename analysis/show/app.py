@@ -83,7 +83,7 @@ class Service:
         return await self._answer(request, lambda: trials_document(columns.campaign, [row], names)[0])
 
     def _campaign(self, request: Request) -> tuple[BinnedColumns, list[str]]:
-        """Return the campaign of a number, and the names of its columns."""
+        """Return the campaign with this number, and the names of its columns."""
         number = request.path_params["campaign"]
         if number >= len(self._columns):
             raise HTTPException(404)

@@ -27,7 +27,7 @@ HEADERS = {  # of every answer
 
 
 class Guard:
-    """Application protected by these rules; ``authority`` is its host and port, ``token`` its secret."""
+    """Application protected by these rules; ``authority`` is its host and port, and ``token`` is its secret."""
 
     def __init__(self, app: ASGIApp, authority: str, token: str) -> None:
         self.app = app

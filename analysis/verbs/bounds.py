@@ -39,7 +39,7 @@ class TrialBounds(Documented):
     """Lower bounds on the propellant of all trials of a ``campaign``.
 
     ``propellant`` (kg) and ``duration`` (s) of the bounding descent are arrays (trials,), NaN where no descent exists.
-    ``intervals`` is the number of intervals of the discretisation, ``file`` the stored table, if requested.
+    ``intervals`` is the number of intervals of the discretisation, and ``file`` is the stored table, if requested.
     """
 
     campaign: str

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Documented, comparison.CampaignComparison):
-    """Comparison of variants on the same trials: ``summary`` by label, ``pairs`` of labels.
+    """Comparison of variants on the same trials, with a ``summary`` by label and ``pairs`` of labels.
 
     `compare_rates` and `compare_values` compare a pair.
     """

@@ -25,7 +25,7 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # numbers to
 class RareResult(RequirementResult, outcome.RareOutcome):
     """Result of a rare-failure study: ``probability``, ``interval``, ``failures`` among ``flights`` simulations.
 
-    ``simulation`` contains the levels, ``flown`` every simulation; ``folder`` is where the result is stored, if it is.
+    ``simulation`` contains the levels, ``flown`` contains every simulation; ``folder`` stores the result, if requested.
     """
 
     def document(self) -> Document:

@@ -28,7 +28,7 @@ from .run import Result, simulate
 class System:
     """A system composed in Python, with the content of a `system.toml`.
 
-    `run` and `write` check it and report all problems together; in that case nothing is written. ``step`` and
+    `run` and `write` check it; if there are problems they report all together, and nothing is written. ``step`` and
     ``stop_time`` are in s.
     """
 
@@ -100,7 +100,7 @@ class System:
     def write(self, folder: FilePath) -> list[Path]:
         """Write `system.toml`, SystemStructure.ssd and all FMUs added by path; return the paths.
 
-        Raises InputError with a line for each problem, and if one of these files was edited.
+        Raises InputError with a line for each problem, and for an edited file that would be overwritten.
         """
         home = Path(folder)
         raw = self.toml.encode()

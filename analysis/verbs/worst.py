@@ -32,7 +32,7 @@ NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # num
 class WorstResult(RequirementResult, outcome.WorstOutcome):
     """Result of a worst-case search: ``worst`` and ``worst_random`` trial, and every simulation in ``flown``.
 
-    ``plan`` is the simulated plan, None for a stability margin. ``folder`` is where the result is stored, if it is.
+    ``plan`` is the simulated plan, None for a stability margin. ``folder`` stores the result, if requested.
     """
 
     plan: BatchPlan | None = None

@@ -30,7 +30,7 @@ def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float
 
 
 def _widen(low: float, high: float) -> tuple[float, float]:
-    """Return a range of nonzero width around an empty one."""
+    """Return a range of nonzero width around a range of zero width."""
     size = max(abs(low), abs(high))
     if size < SMALLEST:
         return -MARGIN, MARGIN

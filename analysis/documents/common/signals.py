@@ -40,7 +40,7 @@ def displayed_name(name: str, axes: Mapping[str, str]) -> str:
 
 
 def names_of_elements(names: Sequence[str], axes: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the names of the axes of these elements; none unless all have a name."""
+    """Return the names of the axes of these elements; no names unless all axes have one."""
     return tuple(axes[name] for name in names) if all(name in axes for name in names) else ()
 
 

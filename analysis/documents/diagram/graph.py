@@ -18,7 +18,7 @@ class Side(StrEnum):
 
 
 class PortKey(NamedTuple):
-    """A port, identified by the path of its block and its name; a vector ``x`` is named ``x[]``, unlike any scalar.
+    """A port, identified by the path of its block, its side and its name, which is ``x[]`` for a vector ``x``.
 
     If several ports lead to the same port, such as elements of a vector or terms of a sum, each has a separate
     ``entry``.

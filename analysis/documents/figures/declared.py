@@ -184,7 +184,7 @@ class ErrorFigure(FigureDeclaration):
 class CurveFigure(FigureDeclaration):
     """Scalars of one unit over time with their ``labels``, each in a separate panel or all ``together``.
 
-    ``low`` and ``high`` (None: none) are drawn as lines.
+    ``low`` and ``high`` are drawn as lines (None: no line).
     """
 
     signals: tuple[Signal, ...]

@@ -26,7 +26,7 @@ def _advances(weight: str) -> dict[int, int]:
 
 
 def _advance(character: str, is_bold: bool) -> int:
-    """Return the advance width of a character in font units; an unknown one is as wide as the font is high."""
+    """Return the advance width of a character in font units; an unknown character is as wide as the font is high."""
     if unicodedata.category(character) in ZERO_WIDTH:
         return 0
     return _advances("bold" if is_bold else "regular").get(ord(character), EM)

@@ -28,7 +28,8 @@ class Embedded:
     def add_figure(self, charts: Sequence[Chart]) -> int | None:
         """Add a figure and return its number, which its element refers to.
 
-        None if scripts are missing, or if it has marks of trials without a document of trials.
+        The result is None if scripts are missing, or if the figure has marks of trials and the page no document of
+        trials.
         """
         if not charts or not self.use("curves"):
             return None
@@ -38,7 +39,7 @@ class Embedded:
         return len(self._figures) - 1
 
     def add_document(self, name: str, bundle: str, document: Any) -> bool:
-        """Add a document that the script ``bundle`` reads; return False, adding nothing, if it was not built."""
+        """Add a document that the script ``bundle`` reads, and return True; return False if the script was not built."""
         if not self.use(bundle):
             return False
         self._documents[name] = self._plain(document)

@@ -26,7 +26,7 @@ Vectors = Mapping[str, Sequence[SignalDifference]]
 
 
 def plotted_signals(signals: Iterable[SignalDifference]) -> tuple[Vectors, int]:
-    """Return the elements of the first signals and vectors by name, and the number of others."""
+    """Return the elements of the first signals and vectors by name, and the number of signals not plotted."""
     vectors: dict[str, list[SignalDifference]] = {}
     for each in signals:
         vectors.setdefault(vector_of(each.name), []).append(each)

@@ -1,4 +1,4 @@
-"""Reserves between values and their limits, by which pages mark the tightest one."""
+"""Reserves between values and their limits, from which pages determine the tightest limit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sentences on a scene: what is to scale, what is not, and what is unknown."""
+"""Sentences on the scales of a scene, and on unknown attitudes and positions."""
 
 from __future__ import annotations
 

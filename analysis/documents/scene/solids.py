@@ -109,7 +109,7 @@ def _box(middle: Sequence[float] | np.ndarray, extents: Sequence[float] | np.nda
 
 
 def _frustum(bottom: float, top: float, low: float, high: float, sides: int = SIDES) -> list[np.ndarray]:
-    """Return the faces between a regular polygon of this radius at z = ``low`` and one at z = ``high``."""
+    """Return the faces of a frustum between regular polygons with these radii at z = ``low`` and z = ``high``."""
     angle = (np.arange(sides) + 0.5) * 2.0 * np.pi / sides
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(sides)], axis=1)
     return _between(bottom * circle + [0.0, 0.0, low], top * circle + [0.0, 0.0, high])

@@ -144,7 +144,7 @@ class CameraStart:
     """The initial camera: its vertical ``field``, its direction from a body (rad), its distance.
 
     The azimuth is an angle about the up axis from the forward direction. The distance is ``diagonals`` diagonals of the
-    body, or more if needed to have all bodies in view, with ``room`` as factor on their extent.
+    body, or more if needed to have all bodies in view, with ``room`` as a factor on their extent.
     """
 
     field: float

@@ -72,7 +72,7 @@ class LoopMargins:
 
     @property
     def unstable(self) -> bool:
-        """True if the loop is known to be unstable, so that it has no margins."""
+        """True if the loop is known to be unstable and therefore has no margins."""
         return self.stable is False
 
     def size(self, quantity: MarginQuantity) -> float:

@@ -1,8 +1,9 @@
 """Odd random-phase multisines: periodic signals that measure a frequency response and its nonlinearity at once.
 
-Only some odd harmonics are excited. Even-order nonlinearity responds at even lines, odd-order at all odd ones, so the
-response at lines that are not excited is nonlinearity or noise. Pintelon and Schoukens, "System Identification: A
-Frequency Domain Approach" (2nd ed. 2012). Line k of a period of N samples has the angular frequency 2 pi k/(N T).
+Only some odd harmonics are excited. Even-order nonlinearity responds at even lines, odd-order nonlinearity at all odd
+lines, so a response at lines that are not excited is due to nonlinearity or noise. Pintelon and Schoukens, "System
+Identification: A Frequency Domain Approach" (2nd ed. 2012). Line k of a period of N samples has the angular frequency 2
+pi k/(N T).
 """
 
 from __future__ import annotations

@@ -115,7 +115,7 @@ def _norm(sizes: np.ndarray, half: np.ndarray) -> np.ndarray:
 def _descend(
     matrix: np.ndarray, start: np.ndarray, half: np.ndarray, step: np.ndarray, value: np.ndarray, slope: np.ndarray
 ) -> np.ndarray:
-    """Return log D after the steps, each shortened until the norm falls by a tenth of what its slope predicts."""
+    """Return log D after the steps, each shortened until a tenth of the decrease predicted by its slope is reached."""
     length = np.ones(len(matrix))
     while True:
         trial = start.copy()

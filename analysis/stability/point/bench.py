@@ -166,8 +166,8 @@ class OperatingPoint:
     ``scale`` [cells] is the unit in which changes of each cell are measured. For a cell with a unit it is the largest
     absolute value that any cell of the same vector had on the way, at least the fraction LEAST of the largest value
     with this unit, or the fraction NEVER of the latter if the vector was always 0. Vectors without a unit, such as
-    covariances, mix quantities: the scale of each of their cells is its present value. Without any scale it is 1.
-    ``sizes`` are the largest absolute values of the signals at the cuts, by loop.
+    covariances, mix quantities: the scale of each of their cells is its present value. It is 1 if no scale can be
+    determined. ``sizes`` are the largest absolute values of the signals at the cuts, by loop.
     """
 
     def __init__(self, bench: Bench) -> None:

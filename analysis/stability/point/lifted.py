@@ -2,8 +2,8 @@
 
 A loop that passes its cut M times in a hyperperiod has M inputs and M outputs there. Driven with the samples of
 exp(jwt), a channel responds at w and, if the system is truly periodic, at frequencies that differ by multiples of 2
-pi/hyperperiod. Its loop gain at w is minus the ratio of the return signal at w to the input at w, both with the loop
-closed, which is what an injection measures; if the system does not change from sample to sample it is the loop's
+pi/hyperperiod. Its loop gain at w is the negated ratio of the return signal at w to the input at w, both with the loop
+closed, as in a measurement by injection. If the system does not change from sample to sample, the loop gain is the
 transfer function.
 
 Source: Bittanti and Colaneri 2009, Periodic Systems, sections 2.2 (lifting) and 2.3 (exponentially modulated periodic
@@ -196,7 +196,7 @@ class LiftedModel:
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 
     def periodicity(self, port: SampledChannel, frequency: np.ndarray) -> float:
-        """Return the largest share of the input at frequencies other than the excited one; 0: time-invariant."""
+        """Return the largest share of the input at frequencies other than the excited one; 0 if time-invariant."""
         worst = 0.0
         for w in frequency:
             wave = np.exp(1j * w * port.seconds * np.arange(port.count))

@@ -1,4 +1,4 @@
-"""Nonlinear elements: their describing functions, predicted limit cycles, and simulated ones."""
+"""Nonlinear elements: describing functions, and predicted and simulated limit cycles."""
 
 from __future__ import annotations
 

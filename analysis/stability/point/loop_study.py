@@ -267,7 +267,7 @@ class LoopStudy:
         return report
 
     def _refine_measurement(self) -> Measured | None:
-        """Return the measurement with the lines at its crossings."""
+        """Return the measurement with further lines at its crossings."""
         if self.measured is None or self.refined is None:
             return self.measured
         return replace(self.measured, curve=self.refined, lines=len(self.refined.frequency))

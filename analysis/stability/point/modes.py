@@ -81,7 +81,7 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
 
 @dataclass(frozen=True)
 class CoupledMemory:
-    """Memory cells each of which affects all others.
+    """Memory cells that all affect each other, directly or not.
 
     ``multipliers`` are in descending order, and ``change`` is the change of the largest with the next smaller steps of
     the differences. For every port, ``moved`` is True if its cut affects the cells, and ``moves`` is True if the cells

@@ -50,7 +50,7 @@ class PointStudy:
         return self.bench.channels
 
     def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
-        """Linearise, or note why it is impossible; ``cells`` and ``steps`` as in `linearise`."""
+        """Linearise, or note why this is impossible; ``cells`` and ``steps`` are as in `linearise`."""
         try:
             self._start = OperatingPoint(self.bench)
             self.linear = linearise(self._start, cells, steps)
@@ -121,7 +121,7 @@ class PointStudy:
         return worst
 
     def joint(self, loop: LoopDeclaration, limits: MarginLimits) -> JointReport | None:
-        """Return the report on all channels of a loop at once, None if it has one channel, or no linear model.
+        """Return the report on all channels of a loop at once, None for a single channel or without a linear model.
 
         Raises StudyError if the margin is not resolved over frequency.
         """

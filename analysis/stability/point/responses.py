@@ -92,7 +92,7 @@ class LoopModel:
 
     @property
     def blur(self) -> float:
-        """Distance from the unit circle below which a pole is indistinguishable from one on it."""
+        """Distance from the unit circle below which a pole is indistinguishable from poles on the circle."""
         return _blur(self.facts.plateau)
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
@@ -158,7 +158,7 @@ def _is_outside(block: CoupledMemory, own: Sequence[Mode], plateau: float) -> bo
 
 
 def _equals_fastest(mode: Mode, block: CoupledMemory) -> bool:
-    """Return True if a mode equals the fastest one of a block, up to the effect of memory that reduction omitted."""
+    """Return True if a mode equals the fastest mode of a block, up to the effect of memory that reduction omitted."""
     return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 
 
@@ -172,7 +172,7 @@ def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
 
 
 def agreement(response: Response, measured: Measured, sample_period: float) -> Agreement:
-    """Compare the linearised response with the measured one on its lines below half the Nyquist frequency."""
+    """Compare linearised and measured response on the measured lines below half the Nyquist frequency."""
     highest = 0.5 * np.pi / sample_period
     retained = measured.curve.frequency <= highest
     frequency = measured.curve.frequency[retained]

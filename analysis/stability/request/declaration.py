@@ -34,7 +34,7 @@ class PointDeclaration:
 
     ``signal`` and ``falls_to`` replace ``time`` by the first communication point at which the signal is at most this
     value. ``layer`` are the system options of the operating point. ``until`` (s) limits measurements; None: unlimited.
-    ``phase`` describes what the system does at the point.
+    ``phase`` describes the activity of the system at the point.
     """
 
     name: str
@@ -66,9 +66,9 @@ class LoopDeclaration:
 
     With ``direction``, a vector of three connectors, the cut is the connector ``cut`` (a magnitude) times
     ``direction``, with the channels x, y, z; with ``direction_rate`` the direction is extrapolated by ``ahead`` (s).
-    ``returned`` is the return signal if it is not at the cut itself, with as many components. ``period`` (s) is the
-    loop's sample period; None: every communication point. ``amplitude`` of the injected signal is in the cut's unit;
-    None: 1 % of the signal. ``points`` are names of operating points.
+    ``returned`` is the return signal, unless this is the cut itself; it has as many components as the cut. ``period``
+    (s) is the loop's sample period; None: every communication point. ``amplitude`` of the injected signal is in the
+    cut's unit; None: 1 % of the signal. ``points`` are names of operating points.
     """
 
     name: str

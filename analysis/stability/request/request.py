@@ -26,8 +26,8 @@ class Request:
     """Request for a study, small enough to be sent to every worker.
 
     ``name`` and ``label`` identify the system and its place in messages. ``plan`` is the campaign over which margins
-    are dispersed, ``campaign`` its name as requested, and ``draws`` the file of supplied draws. ``at`` contains the
-    user's times (s) of points; it is empty if the declared points are used.
+    are dispersed, ``campaign`` is its name as requested, and ``draws`` is the file of supplied draws. ``at`` contains
+    the user's times (s) of points; it is empty if the declared points are used.
     """
 
     name: str
@@ -148,7 +148,7 @@ def _remaining(layer: Layer, options: SystemOptions) -> Layer:
 
 
 def _shift(points: Sequence[PointDeclaration], at: Sequence[float]) -> list[PointDeclaration]:
-    """Return points at other times with the settings of declared ones. Raises InputError for times after their end."""
+    """Return declared points at other times. Raises InputError for times after the end of a point."""
     shifted = []
     for point in points:
         for time in at:

@@ -1,8 +1,8 @@
 """Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
 
-`loops.json` for python-control and `loops.mat` for MATLAB have the same content, `responses.csv` the responses only.
-Gains are factors, frequencies are in rad/s, times in s; signals and states are in the units stated next to them. The
-bytes only depend on the content.
+`loops.json` for python-control and `loops.mat` for MATLAB have the same content; `responses.csv` contains the responses
+only. Gains are factors, frequencies are in rad/s, times in s; signals and states are in the units stated next to them.
+The bytes only depend on the content.
 
 Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins with "MATLAB 5.0
 MAT-file", followed by the subsystem's offset, the version and the byte order. SciPy would write date and platform into

@@ -65,7 +65,7 @@ class LoopReport:
 
     @property
     def doubted(self) -> bool:
-        """True if linearised and measured response differ, so that no requirement can pass."""
+        """True if linearised and measured response differ; no requirement can then pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property

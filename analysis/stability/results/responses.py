@@ -16,10 +16,10 @@ from ..loops.readings import FrequencyResponse
 class Mode:
     """Closed-loop mode over the ``period`` (s) of the linear model.
 
-    ``z`` is the multiplier over one period, ``s`` the equivalent log(z)/period (rad/s; not unique above the Nyquist
-    frequency of the period). ``kind`` is "loop" for modes that are controllable and observable at the cut, else "not
-    controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the norms of the mode's
-    input and output vectors, relative to the largest norm of any mode.
+    ``z`` is the multiplier over one period, and ``s`` is the equivalent log(z)/period (rad/s; not unique above the
+    Nyquist frequency of the period). ``kind`` is "loop" for modes that are controllable and observable at the cut, else
+    "not controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the norms of the
+    mode's input and output vectors, relative to the largest norm of any mode.
     """
 
     z: complex
@@ -81,14 +81,14 @@ class Agreement:
 class StateSpace:
     """Open loop x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k], with L from ``u`` to ``y``.
 
-    ``u`` is the signal into the loop after the break point, ``y`` is minus the return signal, so that the loop is
-    closed by u = d - y and L is positive for negative feedback. All are deviations from the simulation at the operating
-    point, in the units of ``signal_units`` and ``state_units`` (None: dimensionless).
+    ``u`` is the signal into the loop after the break point, ``y`` is minus the return signal, so the loop is closed by
+    u = d - y, and L is positive for negative feedback. All are deviations from the simulation at the operating point,
+    in the units of ``signal_units`` and ``state_units`` (None: dimensionless).
 
-    ``period`` (s) is the time from k to k + 1. If ``samples`` is 1 it is the loop's own sample period; a loop that
-    changes from sample to sample within the hyperperiod has its ``samples`` of u and y stacked, oldest first, channel
-    by channel within each, and the hyperperiod as its period. ``error`` is the largest relative difference of the
-    model's L from the study's where |L| is between 1/33 and 33.
+    ``period`` (s) is the time from k to k + 1. If ``samples`` is 1, the period is the loop's sample period. For a loop
+    that changes from sample to sample within the hyperperiod, the period is the hyperperiod, and u and y stack its
+    ``samples``, oldest first, channel by channel within each. ``error`` is the largest relative difference between L of
+    the model and L of the study where |L| is between 1/33 and 33.
     """
 
     a: np.ndarray
@@ -122,7 +122,10 @@ class AmplitudePoint:
 
 @dataclass(frozen=True)
 class LimitCycle:
-    """Limit cycle predicted by harmonic balance, and the simulated one. Amplitudes are at the element's input."""
+    """Limit cycle predicted by harmonic balance, with amplitude and period of the simulated limit cycle.
+
+    Amplitudes are at the element's input.
+    """
 
     amplitude: float
     period: float  # s

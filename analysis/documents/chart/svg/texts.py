@@ -51,7 +51,7 @@ def _width(note: ChartNote) -> float:
 
 
 def _backing(note: ChartNote, x: float, y: float) -> str:
-    """Return a rectangle as high as the tallest letters, so that all backings have the same height."""
+    """Return a rectangle as high as the tallest letters, which gives all backings the same height."""
     if note.backing is None:
         return ""
     margin, width = note.backing.margin, _width(note)

@@ -13,7 +13,7 @@ from .content import BatchContent
 
 
 def header_nodes(content: BatchContent) -> list[Node]:
-    """Return the verdicts on the variants and the conditions of the batch."""
+    """Return nodes with the verdicts on variants, and the conditions of the batch."""
     campaign, provenance = content.campaign, content.batch.provenance
     command = batch_command(content.batch.plan)
     return [

@@ -9,7 +9,7 @@ from .embedded_flights import embedded_flights
 
 
 def recorded_sections(batch: CampaignResult) -> list[Section]:
-    """Return the section on recorded simulations, which only scripts can display; none if there are none."""
+    """Return the section on recorded simulations, which only scripts can display; no section without simulations."""
     embedded = embedded_flights(batch)
     if embedded is None:
         return []

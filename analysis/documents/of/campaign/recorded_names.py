@@ -83,7 +83,7 @@ def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
 def find_vector(
     provenance: CampaignProvenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
 ) -> tuple[str, str, str] | None:
-    """Return the first vector named ``variable`` with that unit, preferably of the component ``owner``."""
+    """Return the first vector named ``variable`` with this unit, preferably of the component ``owner``."""
     candidates = {
         base: elements
         for base, elements in vectors(names).items()

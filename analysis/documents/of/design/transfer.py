@@ -87,7 +87,7 @@ def _summary(study: HoverStudy) -> list[Node]:
 
 
 def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
-    """Return propellant, duration and burns of each plan, and the grid of plans that have one."""
+    """Return propellant, duration and burns of each plan, and the grid of plans on a grid."""
     gridded = [study.optimum, study.bound]
     others = (("finite switches", study.finite), ("turn in free fall", study.free_fall))
     rows: list[tuple[Cell, float, float, int | None, Iterable[tuple[float, float]]]] = [
@@ -227,7 +227,7 @@ def _decade(residual: float) -> Quantity:
 
 
 def _comparisons(study: HoverStudy) -> Table:
-    """Return programme and turn in free fall over distance; none if there is no programme of this kind."""
+    """Return the table of programme and turn in free fall over distance, empty without this kind of programme."""
     mass = study.vehicle.mass
     rows: list[list[Cell]] = []
     for each in study.comparisons:

@@ -71,7 +71,7 @@ def overview_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def bode_figure(loop: LoopReport, label: str, name: str, height: float) -> Figure:
-    """Return the figure of gain and phase of a loop above each other."""
+    """Return the figure of a loop's gain above its phase."""
     gain, phase = bode_charts(loop)
     return Figure(label, name, f"Bode diagram of {loop.name}: {margin_words(loop)}", gain, height, below=phase)
 

@@ -123,7 +123,7 @@ def _blocks(known: Sequence[Part]) -> list[list[Part]]:
 
 
 def _tiles(block: Sequence[Part], shared: SharedFigures, paper: Paper) -> list[Tile]:
-    """Return a block of parts, with several figures of a part below it, or a single one next to it."""
+    """Return a block of parts, with several figures of a part below it, or a single figure next to it."""
     nodes = [
         node
         for part in block

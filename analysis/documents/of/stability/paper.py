@@ -30,7 +30,7 @@ class Paper:
 
     @property
     def words(self) -> str:
-        """The statement of what is omitted on paper."""
+        """Sentences on content that is omitted on paper."""
         if self.kinds is None:
             return "Printed without the tables of loops whose figures are shown with another loop."
         return (

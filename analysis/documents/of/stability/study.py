@@ -61,7 +61,7 @@ def decisive_loop(report: StabilityStudy) -> LoopReport:
 
 
 def _notebook_nodes(report: StabilityStudy) -> list[Node]:
-    """Return the verdict, the nearest margins of each loop, and the Bode diagram of the decisive one."""
+    """Return the verdict, the nearest margins of each loop, and the Bode diagram of the decisive loop."""
     heads = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
     rows = [
         (

@@ -38,7 +38,7 @@ def with_mark(report: StabilityStudy, loop: LoopReport, name: Inline) -> Cell:
 
 
 def tightest_nodes(report: StabilityStudy) -> list[Text]:
-    """Return a statement of the tightest margin with its limit, or that no margin has one; none without loops."""
+    """Return a statement of the tightest margin with its limit, or that no margin has a limit; none without loops."""
     if not report.loops:
         return []
     nearest = tightest(report)

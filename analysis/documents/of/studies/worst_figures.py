@@ -69,7 +69,7 @@ def search_chart(study: WorstOutcome) -> Chart:
 
 
 class MarkedAbscissa(NamedTuple):
-    """An abscissa to mark on a chart if it is finite, as displayed; dashed unless it is the search's result."""
+    """An abscissa, as displayed, that a chart marks with a line if finite: dashed unless it is the search's result."""
 
     at: float
     colour: str

@@ -71,9 +71,9 @@ RADII = (0.5, 0.99)  # fractions of the trials that end within the distances sho
 class EndDispersion:
     """Statistics of the final errors of one variant's successful trials, in SI.
 
-    ``mean`` and ``std`` have three elements, ``axes`` are the semi-axes of the horizontal 1-sigma ellipse (longer
-    first), ``radii`` the horizontal distances from the target within which half and 99 % of the trials end, and the
-    largest distance. Each is None if there are too few trials.
+    ``mean`` and ``std`` have three elements. ``axes`` are the semi-axes of the horizontal 1-sigma ellipse (longer
+    first). ``radii`` are the horizontal distances from the target within which half, 99 % and all of the trials end.
+    Each of these is None if there are too few trials.
     """
 
     count: int

@@ -24,8 +24,8 @@ def missing_statements(
 ) -> dict[str, str]:
     """Return, by section, the data that the results lack, and the record that a campaign needs to provide them.
 
-    ``kinds`` are the kinds of available quantities over time, ``ends`` the variables with final values. A system
-    without a path, such as one of attitude alone, lacks nothing: it has no trajectory, thrust, final error or
+    ``kinds`` are the kinds of available quantities over time, and ``ends`` are the variables with final values. A
+    system without a path, such as one of attitude alone, lacks nothing: it has no trajectory, thrust, final error or
     propellant.
     """
     reasons = {}
@@ -62,7 +62,7 @@ def missing_statements(
 
 
 def is_biased(comparison: CampaignComparison, flights: Mapping[str, list[ComparedFlight]]) -> bool:
-    """Return True if the simulations over time are of different trials per variant, or of failed trials only."""
+    """Return True if the simulations over time show different trials for each variant, or only failed trials."""
     trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]
     return len(trials) > 1 or any(record["every"] is None and record["traces"] == "failures" for record in records)

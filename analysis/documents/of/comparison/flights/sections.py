@@ -24,7 +24,7 @@ OVER_TIME = ("commands", "motion", "other")
 
 
 def missing_nodes(content: ComparisonContent, *keys: str) -> list[Node]:
-    """Return statements of what the results lack."""
+    """Return statements on data that the results lack."""
     return [Missing(content.missing[key]) for key in keys if key in content.missing]
 
 

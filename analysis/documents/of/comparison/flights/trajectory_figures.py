@@ -52,7 +52,7 @@ def _figure(label: str, name: str, words: str, chart: Chart, title: str, styles:
 
 
 def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_ground: bool) -> Chart:
-    """Return paths in side view, with the target and the surface at height 0."""
+    """Return the chart of paths in side view, with the target and the surface at height 0."""
     return Chart(
         NO_BOX,
         x,

@@ -98,7 +98,7 @@ def path_chart(
 
 
 def _point_curves(name: str, position: np.ndarray, index: int) -> list[Curve]:
-    """Return marks at all positions of a point, [2, n], the last one larger; none if none is finite."""
+    """Return marks at all positions of a point, [2, n], the last one larger; no marks if no position is finite."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     if not finite.size:
         return []

@@ -181,7 +181,7 @@ def _figures(
     windows: Sequence[Window],
     name: str,
 ) -> list[Figure]:
-    """Return a figure for each time window; a single one is as wide as the page."""
+    """Return a figure for each time window; a single figure is as wide as the page."""
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:

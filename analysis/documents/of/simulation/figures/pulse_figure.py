@@ -55,7 +55,7 @@ def pulse_section(pulses: PulsesFigure, result: FlightResult, name: str) -> Grou
 
 
 def pulse_charts(pulses: PulsesFigure, result: FlightResult, lengths: np.ndarray) -> list[tuple[str, Chart]]:
-    """Return a chart for each axis with its heading, and one of the thruster on-time, if declared.
+    """Return a chart for each axis with its heading, and a chart of the thruster on-time, if declared.
 
     A bar from 0 to its length (s) represents a pulse; all ordinates have the same ends. ``lengths`` are as returned by
     `pulse_lengths`.

@@ -79,7 +79,7 @@ def cloud_chart(loop: LoopReport) -> Chart:
 
 
 def thin(poles: np.ndarray, extent: float) -> np.ndarray:
-    """Return a cloud of at most `MOST` points: one in each cell of a grid too fine to be visible."""
+    """Return a cloud of at most `MOST` points: one point in each cell of a grid too fine to be visible."""
     cells = 400
     while poles.size > MOST and cells >= 25:
         rounded = np.round(poles.real / extent * cells) + 1j * np.round(poles.imag / extent * cells)
