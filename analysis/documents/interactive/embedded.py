@@ -39,7 +39,7 @@ class Embedded:
         return len(self._figures) - 1
 
     def add_document(self, name: str, bundle: str, document: Any) -> bool:
-        """Add a document that the script ``bundle`` reads, and return True; return False if the script was not built."""
+        """Add a document that the script ``bundle`` reads, and return True; False if this was not built."""
         if not self.use(bundle):
             return False
         self._documents[name] = self._plain(document)
