@@ -1,6 +1,6 @@
-/* What the statements of fused steps use, as text around them: the parts of the run, and how a flight ends.
+/* Definitions for the statements of fused steps: members of the run, and ends of a flight.
  *
- * A failure leaves in `outcome` what the loop leaves there.
+ * After a failure `outcome` has the same content as after a failure in the loop.
  */
 #define PARTS_OF(run) \
     const uint64_t *const instructions = (run)->program.instructions; \
@@ -43,7 +43,7 @@
         return rows; \
     } while (0)
 
-/* An fmi2Status graver than a warning, or none of FMI's. */
+/* True for an fmi2Status more severe than a warning, or unknown to FMI. */
 #define CHECK(status, component, function, number) \
     do { \
         if (status > FMI_WARNING || status < 0) { \
@@ -53,7 +53,7 @@
         } \
     } while (0)
 
-/* The first of some slots whose value is not finite. */
+/* Return the first slot of a range with a value that is not finite. */
 #define CHECK_FINITE(first, count, number) \
     do { \
         for (int64_t slot = first; slot < first + count; slot++) { \
@@ -61,14 +61,14 @@
         } \
     } while (0)
 
-/* A number for an Integer or a Boolean, which 32 bits have to hold. */
+/* Convert a number to an Integer or a Boolean; it must fit into 32 bits. */
 #define WHOLE(slot, number) \
     do { \
         if (!(values[slot] >= INT32_MIN && values[slot] <= INT32_MAX)) END(NONFINITE, slot, number); \
         whole[slot] = (int32_t)values[slot]; \
     } while (0)
 
-/* A String that an FMU has given, copied into its row. */
+/* Copy a String that an FMU returned to its row. */
 #define TAKE_TEXT(text, number) \
     do { \
         if (text_given[text] == NULL) \
@@ -78,7 +78,7 @@
         if (text_address[text][text_size - 1] != '\0') END(TOO_LONG, text, number); \
     } while (0)
 
-/* Faults on slots, each in its window [from, until) s. */
+/* Faults on slots, each active in its window [start, end) s. */
 #define DURING(fault, statement) \
     if (fault_window[2 * (fault)] <= after && after < fault_window[2 * (fault) + 1]) statement
 #define INJECT_OVERRIDE(fault, slot) DURING(fault, values[slot] = fault_value[fault])

@@ -149,7 +149,7 @@ def test_what_is_simulated_elsewhere(tmp_path):
     options = {"trials": 2, "flavour": "fused", "output": tmp_path / "out"}
     with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.batch(*campaign, engine="processes", workers=1, **options)
-    with pytest.raises(InputError, match="flavour: fused: shards decide for themselves whether to compile steps"):
+    with pytest.raises(InputError, match="flavour: fused: shards choose for themselves whether to compile steps"):
         perilune.prepare(*campaign, **options)
     with pytest.raises(InputError, match="flavour: fused: the system is simulated in child processes"):
         perilune.simulate("lunar_terminal_guidance", flavour="fused", use={"guidance": foreign(tmp_path)})

@@ -1,6 +1,6 @@
-/* What happens once, before a run: parameters, modes, and whether the FMUs took what they were given. */
+/* Instructions executed once before a run: parameters, modes, and the check that FMUs accepted their parameters. */
 
-#define LOSS 1e-6 /* of a Real: what an FMU may lose of it by single precision or another unit */
+#define LOSS 1e-6 /* permitted relative error of a Real, from single precision or conversion to another unit */
 
 static bool is_near(double stored, double requested)
 {
@@ -13,7 +13,7 @@ static bool is_same_text(uint64_t stored, uint64_t requested)
     return stored != 0 && strcmp(POINTER(stored), POINTER(requested)) == 0;
 }
 
-/* The first parameter that an FMU of FMI 2.0 has not taken, -1 where it has taken all. */
+/* Return the first parameter that an FMU of FMI 2.0 did not accept, -1 if it accepted all. */
 static int64_t first_refused(const Run *run, uint64_t code, int64_t first, int64_t count)
 {
     const Settings *const given = &run->settings, *const stored = &run->buffers.read_back;
@@ -26,7 +26,7 @@ static int64_t first_refused(const Run *run, uint64_t code, int64_t first, int64
     return -1;
 }
 
-/* The values of parameters that an instruction names: those of their type. */
+/* Return the values of an instruction's parameters, in the array of their type. */
 static const void *values_of(const Settings *settings, uint64_t type, int64_t first)
 {
     if (type == PARAMETERS) return settings->real + first;
@@ -49,7 +49,7 @@ static int set_up_experiment(const Run *run, const uint64_t *row)
         POINTER(row[INSTANCE]), known, allowed, run->span.start, ends, stop);
 }
 
-/* Execute one instruction of the initialisation; returns the fmi2Status. A parameter not taken becomes the outcome. */
+/* Execute an instruction of the initialisation; return the fmi2Status. A rejected parameter becomes the outcome. */
 static int begin(const Run *run, const uint64_t *row)
 {
     const uint64_t code = row[CODE];

@@ -1,4 +1,4 @@
-/* Calls of the functions of FMUs by their address. They return the fmi2Status or fmi3Status. */
+/* Calls of FMU functions by address. They return the fmi2Status or fmi3Status. */
 #ifndef CALLS_H
 #define CALLS_H
 
@@ -15,7 +15,7 @@ static inline bool is_well(int status)
     return 0 <= status && status <= FMI_WARNING;
 }
 
-/* fmi2SetReal, fmi2GetString and their like, of variables and values side by side. */
+/* fmi2SetReal, fmi2GetString and similar functions, with contiguous references and values. */
 static inline int exchange(
     uint64_t function, uint64_t instance, const uint32_t *references, uint64_t count, const void *values)
 {
@@ -23,21 +23,21 @@ static inline int exchange(
     return ((Exchange *)(uintptr_t)function)(POINTER(instance), references, (size_t)count, values);
 }
 
-/* fmi2DoStep, with the promise not to go back before the current point. */
+/* fmi2DoStep, with the guarantee that no earlier state is restored (noSetFMUStatePriorToCurrentPoint). */
 static inline int do_step(uint64_t function, uint64_t instance, double time, double step)
 {
     typedef int DoStep(void *, double, double, int);
     return ((DoStep *)(uintptr_t)function)(POINTER(instance), time, step, 1);
 }
 
-/* fmi2Reset, fmi3EnterEventMode and other functions that take the instance alone. */
+/* fmi2Reset, fmi3EnterEventMode and other functions with the instance as their only argument. */
 static inline int change_mode(uint64_t function, uint64_t instance)
 {
     typedef int ChangeMode(void *);
     return ((ChangeMode *)(uintptr_t)function)(POINTER(instance));
 }
 
-/* fmi3SetFloat64 and its like; an array is one variable of many values. */
+/* fmi3SetFloat64 and similar functions; an array is one variable with several values. */
 static inline int exchange_values(
     uint64_t function, uint64_t instance, const uint32_t *references, int64_t variables, const void *values, int64_t count)
 {
@@ -60,7 +60,7 @@ static inline int exchange_binaries(
         POINTER(instance), references, (size_t)variables, sizes, addresses, (size_t)count);
 }
 
-/* fmi3DoStep, with the same promise; flags become eventHandlingNeeded, terminateSimulation, earlyReturn. */
+/* fmi3DoStep, with the same guarantee; it sets the flags eventHandlingNeeded, terminateSimulation, earlyReturn. */
 static inline int do_step_to_event(
     uint64_t function, uint64_t instance, double time, double step, bool *flags, double *last_time)
 {

@@ -1,4 +1,4 @@
-/* Instructions of the loop: a table of numbers, a row each. codes.py says what the columns of each one mean. */
+/* Instructions of the loop, rows of a table of numbers; codes.py explains the columns. */
 #ifndef CODES_H
 #define CODES_H
 
@@ -32,7 +32,7 @@ enum Code {
     READ_BACK = 24,
     WHOLE_READ_BACK = 25,
     TEXT_READ_BACK = 26,
-    /* of FMI 3.0 */
+    /* only for FMI 3.0 */
     SET_TRANSFER = 27,
     GET_TRANSFER = 28,
     READ_TRANSFER = 29,
@@ -52,7 +52,7 @@ enum Code {
 
 enum FaultKind { OVERRIDE = 0, BIAS = 1, FREEZE = 2, EXCITE = 3 };
 
-/* A row of transfers: its variables, then its slots, parameters or texts. */
+/* Columns of a transfer: its variables, then its slots, parameters or texts. */
 enum TransferColumn { REFERENCE = 0, REFERENCES = 1, FIRST_VALUE = 2, VALUES = 3, KIND = 4, TRANSFER_COLUMNS = 5 };
 
 enum Kind {
@@ -71,7 +71,7 @@ enum Kind {
     BINARY = 12,
 };
 
-/* Numbers of functions of FMI 3.0, in the order of library.FUNCTION_NAMES; a setter and a getter for each kind. */
+/* Numbers of functions of FMI 3.0 in library.FUNCTION_NAMES, which has a setter and a getter for each kind. */
 enum Function {
     SETTERS = 14,
     GETTERS = 27,

@@ -1,19 +1,19 @@
 /* Steps and event mode of FMUs of FMI 3.0. */
 
-#define MOST_ROUNDS 1000 /* of event iterations, and of steps that return where they began */
+#define MOST_ROUNDS 1000 /* event iterations, and successive steps that do not advance */
 #define OF_A_STEP 1e-9
 #define OF_A_TIME 8.881784197001252e-16 /* 2^-50 */
 
-/* By how much (s) a time may lie outside a step, or lack of its end, and still count as in it or as it: FMUs add times up
- * in their own ways. */
+/* Return the tolerance (s) within which a time counts as inside a step, or as its end; FMUs accumulate rounding errors
+ * of times differently. */
 EXPORT double perilune_time_allowance(double begin, double end)
 {
     const double largest = fabs(begin) < fabs(end) ? fabs(end) : fabs(begin);
     return OF_A_STEP * (end - begin) + OF_A_TIME * largest;
 }
 
-/* Go from event mode to step mode, once the discrete states have settled; returns the fmi3Status.
- * An FMU that ends the simulation, or that never settles, becomes the outcome. */
+/* Change from event mode to step mode once the discrete states have settled; return the fmi3Status.
+ * The outcome reports an FMU that ends the simulation or does not settle. */
 static int settle(const Run *run, const uint64_t *functions, uint64_t instance)
 {
     const StoredValues *const stored = &run->fmi3.stored;
@@ -36,8 +36,8 @@ static int settle(const Run *run, const uint64_t *functions, uint64_t instance)
     return status;
 }
 
-/* Step to the end, again where the FMU returns early; events are handled when they occur. Returns the fmi3Status.
- * An early return at a time that is not in its step becomes the outcome, with the beginning of that step. */
+/* Step to the end; continue after early returns, and handle events when they occur. Return the fmi3Status.
+ * The outcome reports an early return at a time outside the step, with the start of the step. */
 static int step_to(
     const Run *run, const uint64_t *functions, uint64_t instance, double begin, double step, double end, bool uses_events)
 {
@@ -50,7 +50,7 @@ static int step_to(
         int status = do_step_to_event(functions[DO_STEP], instance, time, step, stored->flags, stored->time);
         if (!is_well(status)) return status;
         const double last = stored->time[0];
-        if (stored->flags[2] && !(time - allowed <= last && last <= end + allowed)) { /* NaN is not, either */
+        if (stored->flags[2] && !(time - allowed <= last && last <= end + allowed)) { /* also true for NaN */
             outcome[ENDING] = OUTSIDE_STEP;
             stored->time[1] = time;
             return status;

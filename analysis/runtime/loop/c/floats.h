@@ -2,16 +2,16 @@
  *
  * On x86-64 it is two words: MXCSR of SSE (rounding, flush to zero, denormals are zero, exception masks) and the control
  * word of the x87 (Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1, 10.2.3 and 8.1.5); on aarch64
- * it is FPCR (Arm Architecture Reference Manual, C5.2.8). Other processors are left alone. Flags of past exceptions are
- * no part of it. Reading takes a nanosecond; C's fegetenv and fesetenv, which save and load everything, a hundred.
+ * it is FPCR (Arm Architecture Reference Manual, C5.2.8). On other processors nothing is done. Flags of past exceptions
+ * are ignored. Reading takes a nanosecond; fegetenv and fesetenv of C, which save and load everything, take a hundred.
  */
 #ifndef FLOATS_H
 #define FLOATS_H
 
 #include <stdint.h>
 
-/* Restore the default where it is another one. Words are read as they were written, 32 and 16 bits: a wider read would
- * wait for the store to leave the processor. */
+/* Restore the default environment if it was changed. Words are read with the widths of their stores, 32 and 16 bits: a
+ * wider read would have to wait for the store. */
 static inline void restore_default_floats(void)
 {
 #if defined(__x86_64__)

@@ -1,6 +1,6 @@
-/* Instructions of FMUs of FMI 3.0: exchanges and steps, and what happens once before a run. */
+/* Instructions for FMUs of FMI 3.0: exchanges and steps, and the initialisation before a run. */
 
-/* The functions of the component of an instruction. */
+/* Return the addresses of the functions of an instruction's component. */
 static const uint64_t *functions_of(const Run *run, const uint64_t *row)
 {
     return run->fmi3.transfers.functions + (int64_t)row[COMPONENT] * run->fmi3.transfers.functions_columns;
@@ -11,7 +11,7 @@ static const int64_t *transfer_of(const Run *run, int64_t number)
     return run->fmi3.transfers.rows + TRANSFER_COLUMNS * number;
 }
 
-/* Execute one instruction of the communication step after `point`; returns the fmi3Status. */
+/* Execute an instruction of the communication step after `point`; return the fmi3Status. */
 static int exchange_in_step(const Run *run, const uint64_t *row, double time, int64_t point)
 {
     const uint64_t code = row[CODE], function = row[ADDRESS], instance = row[INSTANCE];
@@ -23,7 +23,7 @@ static int exchange_in_step(const Run *run, const uint64_t *row, double time, in
     outcome[FUNCTION_CALLED] = (int64_t)row[FUNCTION];
     if (code == SET_TRANSFER) {
         const int64_t *const transfer = transfer_of(run, first);
-        if (transfer[KIND] != FLOAT64 || point < 0) { /* the first event compares with the initialisation */
+        if (transfer[KIND] != FLOAT64 || point < 0) { /* also in the initialisation, for comparison */
             to_stored(transfer[KIND], transfer[FIRST_VALUE], transfer[VALUES], values, stored, outcome);
             if (outcome[ENDING] != 0) return 0;
         }
@@ -50,7 +50,7 @@ static int exchange_in_step(const Run *run, const uint64_t *row, double time, in
     return step_to(run, functions_of(run, row), instance, begin, (double)count * step, end, first != 0);
 }
 
-/* Give the texts of a transfer to an FMU; returns the fmi3Status. */
+/* Set the texts of a transfer in an FMU; return the fmi3Status. */
 static int give_texts(const Run *run, uint64_t function, uint64_t instance, const int64_t *transfer)
 {
     const uint32_t *const references = run->fmi3.transfers.reference + transfer[REFERENCE];
@@ -62,7 +62,8 @@ static int give_texts(const Run *run, uint64_t function, uint64_t instance, cons
     return exchange_binaries(function, instance, references, variables, run->fmi3.sizes + first, addresses, count);
 }
 
-/* Take the texts of a transfer; returns the fmi3Status. One without room becomes the outcome, a Binary as -1 - its number. */
+/* Get the texts of a transfer; return the fmi3Status. The outcome reports a text that is too long, a Binary as -1 - its
+ * number. */
 static int take_texts(const Run *run, uint64_t function, uint64_t instance, const int64_t *transfer)
 {
     const uint32_t *const references = run->fmi3.transfers.reference + transfer[REFERENCE];
@@ -93,7 +94,7 @@ static int take_texts(const Run *run, uint64_t function, uint64_t instance, cons
     return status;
 }
 
-/* Give discrete inputs, in event mode, if one of them has changed; texts count as changed. Returns the fmi3Status. */
+/* Set discrete inputs in event mode if one of them has changed; texts count as changed. Return the fmi3Status. */
 static int set_events(const Run *run, const uint64_t *row)
 {
     const uint64_t *const functions = functions_of(run, row);
@@ -119,7 +120,7 @@ static int set_events(const Run *run, const uint64_t *row)
     return is_well(status) ? settle(run, functions, instance) : status;
 }
 
-/* Execute one instruction on texts, or on discrete inputs, of a communication step up to `after` (s). */
+/* Execute an instruction on texts or discrete inputs, in a communication step up to `after` (s). */
 static int exchange_texts(const Run *run, const uint64_t *row, double after)
 {
     const int64_t first = (int64_t)row[FIRST];
@@ -139,7 +140,7 @@ static int exchange_texts(const Run *run, const uint64_t *row, double after)
     return set_events(run, row);
 }
 
-/* The first parameter of a transfer that an FMU has not taken, -1 where it has taken all. */
+/* Return the first parameter of a transfer that an FMU did not accept, -1 if it accepted all. */
 static int64_t first_refused_of_transfer(const Run *run, const int64_t *transfer)
 {
     static const size_t sizes[] = {
@@ -164,7 +165,7 @@ static int64_t first_refused_of_transfer(const Run *run, const int64_t *transfer
     return -1;
 }
 
-/* Execute one instruction of the initialisation; returns the fmi3Status. A parameter not taken becomes the outcome. */
+/* Execute an instruction of the initialisation; return the fmi3Status. A rejected parameter becomes the outcome. */
 static int begin_fmi3(const Run *run, const uint64_t *row)
 {
     if (row[CODE] == ENTER_INITIALIZATION) return set_up_experiment(run, row);

@@ -1,4 +1,4 @@
-/* Runs one after another, without a return to the interpreter between them. */
+/* Consecutive runs without a return to the interpreter. */
 
 static void set_inputs(const Run *run, const RunGroup *group, int64_t number)
 {
@@ -16,8 +16,8 @@ static void set_inputs(const Run *run, const RunGroup *group, int64_t number)
     }
 }
 
-/* Simulate the runs of a group from their start; returns how many have been simulated. The record has room for all.
- * Ends early after a run that did not come to its end. */
+/* Simulate the runs of a group, each from the start; return the number of simulated runs. The record must be large
+ * enough for all. A run that does not complete is the last. */
 EXPORT int64_t perilune_fly_group(const Run *first, const RunGroup *group)
 {
     Run run = *first;

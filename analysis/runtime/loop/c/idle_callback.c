@@ -1,4 +1,4 @@
-/* The callback that FMUs of FMI 3.0 call within their steps: nothing is exchanged there, and no early return is requested. */
+/* Callback of FMUs of FMI 3.0 during their steps: exchanges nothing and requests no early return. */
 EXPORT void perilune_ignore_update(
     void *environment,
     double time,

@@ -1,4 +1,4 @@
-/* The library that simulates systems: one unit, whose subjects are a file each. */
+/* The library that simulates systems, one translation unit of several files. */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,10 +17,10 @@
 #endif
 #define COLD __attribute__((cold, noinline))
 
-/* The sizes of the structures that Python fills: it compares them with its own. */
+/* Sizes of the structures that Python fills, for comparison with its own. */
 EXPORT const uint64_t perilune_sizes[] = {sizeof(Run), sizeof(RunGroup)};
 
-/* For Python, after a call of an FMU's function outside the loop. */
+/* Called by Python after a call of an FMU's function outside the loop. */
 EXPORT void perilune_restore_floats(void)
 {
     restore_default_floats();

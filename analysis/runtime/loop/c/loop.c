@@ -1,11 +1,12 @@
 /* The co-simulation loop: it initialises the FMUs and executes the instructions of every communication step.
  *
- * reference_loop.py says in Python what a step means; here it is a list of instructions on slots. Every exchanged number
- * has a slot, a double; Integers, Booleans and Enumerations of FMI 2.0 pass through 32-bit integers of the same layout.
- * The slots of a component lie side by side by type and direction, so that each FMI call takes a stretch of them.
+ * reference_loop.py defines the meaning of a step in Python; here a step is a list of instructions on slots. Every
+ * exchanged number has a slot, a double; Integers, Booleans and Enumerations of FMI 2.0 are converted to 32-bit
+ * integers in an array of the same layout. Slots of a component with the same type and direction are contiguous, so
+ * that one FMI call transfers them.
  */
 
-/* Infinite or NaN. */
+/* Return true for infinite values and NaN. */
 static inline bool is_unbounded(double value)
 {
     return !(fabs(value) < INFINITY);
@@ -39,7 +40,7 @@ static void prepare_memory(const Run *run)
     }
 }
 
-/* The value that a connection maps its source to; false where its table has no entry. */
+/* Map the source of a connection by its table; return false if the table has no entry for it. */
 static bool map_value(const Program *program, int64_t c, const double *values, double *mapped)
 {
     const int64_t first = program->table[2 * c], end = first + program->table[2 * c + 1];
@@ -51,7 +52,7 @@ static bool map_value(const Program *program, int64_t c, const double *values, d
         }
     }
     *mapped = value;
-    return isnan(program->table_from[end - 1]); /* other values stay */
+    return isnan(program->table_from[end - 1]); /* a partial table leaves other values unchanged */
 }
 
 static void inject(const Run *run, int64_t f, double *values, double after, int64_t point)
@@ -74,7 +75,7 @@ static void inject(const Run *run, int64_t f, double *values, double after, int6
     }
 }
 
-/* Execute an instruction that is not of every step, or of few systems; returns the status of the FMU. */
+/* Execute an instruction that is rare in steps or systems; return the status of the FMU. */
 static COLD int execute_rare(const Run *run, const uint64_t *row, double time, double after, int64_t point)
 {
     const uint64_t code = row[CODE];
@@ -85,7 +86,7 @@ static COLD int execute_rare(const Run *run, const uint64_t *row, double time, d
     return begin_fmi3(run, row);
 }
 
-/* Initialise and simulate; returns the number of rows in the record, the outcome says how the run ended. */
+/* Initialise and simulate; return the number of rows in the record. The outcome states how the run ended. */
 EXPORT int64_t perilune_fly(const Run *run)
 {
     const Program *const program = &run->program;
@@ -127,7 +128,7 @@ EXPORT int64_t perilune_fly(const Run *run)
             const uint64_t address = row[ADDRESS];
             const int64_t first = (int64_t)row[FIRST], count = (int64_t)row[COUNT];
             int status = 0;
-            double doubt = 0.0; /* NaN as soon as a value is taken that is not finite */
+            double doubt = 0.0; /* NaN once a non-finite value was read */
             switch (row[CODE]) {
             case COPY:
                 for (int64_t i = 0; i < count; i++) values[first + i] = values[(int64_t)address + i];
@@ -165,7 +166,7 @@ EXPORT int64_t perilune_fly(const Run *run)
                     values[first + i] = (double)number;
                     fits &= INT32_MIN <= number && number <= INT32_MAX;
                 }
-                k += fits; /* the next instruction calls the FMU, which refuses the number */
+                k += fits; /* otherwise the next instruction calls the FMU, which rejects the number */
                 continue;
             }
             case TAKE_BOOLEAN:

@@ -1,16 +1,16 @@
-/* Values over the rows of runs, one run after another, reduced to one number for each.
+/* Reduction of the rows of consecutive runs to one number for each run.
  *
- * Sums go from the first row to the last, so that a mean is the same however many runs are looked at together.
+ * Sums are formed from the first row to the last, so that a mean does not depend on the number of runs in a call.
  */
 
 enum Reduction { FINAL = 0, MIN = 1, MAX = 2, MEAN = 3, RMS = 4, LAST_OUTSIDE = 5, SETTLED = 6, FIRST_AFTER = 7 };
 
-#define ROUNDING 1e-6 /* of a step, that times, start + n h, may miss */
+#define ROUNDING 1e-6 /* fraction of a step, for rounding of times, start + n h */
 
-/* Limits of a reduction; those that it has no use for are not looked at. Times in s. */
+/* Limits of a reduction; a reduction ignores limits that it does not use. Times in s. */
 enum Limit { WINDOW_START = 0, WINDOW_END = 1, BAND_LOW = 2, BAND_HIGH = 3, DELAY = 4 };
 
-/* The rows of a run that are reduced, from first to before end. */
+/* The rows of a run to reduce, from first to end - 1. */
 typedef struct {
     int64_t first;
     int64_t end;
@@ -98,8 +98,8 @@ static double reduce(int64_t reduction, const double *limits, Rows rows)
     }
 }
 
-/* One number for each run, whose rows end before `ends`; NaN for a run without rows in the window. Both ends of the
- * window are in it. */
+/* Compute one number for each run, whose rows end before its entry in `ends`; NaN for a run without rows in the window.
+ * The window includes both ends. */
 EXPORT void perilune_reduce(
     int64_t reduction,
     const double *limits,

@@ -1,4 +1,4 @@
-/* Strings of FMI 2.0, handed from FMU to FMU as rows of bytes. */
+/* Strings of FMI 2.0, passed between FMUs as rows of bytes. */
 
 static void reset_texts(const Texts *texts)
 {
@@ -6,7 +6,7 @@ static void reset_texts(const Texts *texts)
     if (size != 0) memcpy(texts->rows, texts->initial, size);
 }
 
-/* Copy a String that an FMU has returned into its row. One without room there becomes the outcome. */
+/* Copy a String that an FMU returned to its row. A String that is too long becomes the outcome. */
 static bool keep_text(const Texts *texts, int64_t t, int64_t *outcome)
 {
     uint8_t *const row = POINTER(texts->address[t]);
@@ -22,7 +22,7 @@ static bool keep_text(const Texts *texts, int64_t t, int64_t *outcome)
     return false;
 }
 
-/* Execute one instruction on Strings; returns the fmi2Status. */
+/* Execute an instruction on Strings; return the fmi2Status. */
 static int exchange_text(const uint64_t *row, const Texts *texts, int64_t *outcome)
 {
     const uint64_t function = row[ADDRESS], first = row[FIRST], count = row[COUNT];

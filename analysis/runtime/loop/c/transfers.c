@@ -1,8 +1,8 @@
-/* Numbers exchanged with FMUs of FMI 3.0 in their own types: whole variables of one type in one call.
+/* Numbers exchanged with FMUs of FMI 3.0 in their FMI types: complete variables of one type in one call.
  *
- * A slot is a double; values of other types are converted into words of eight bytes, one a slot, of which a transfer
- * fills the first ones. Integers of 64 bits are exchanged exactly: `exact` has them next to the slots, and counts wherever
- * it, rounded to a double, is the number of its slot.
+ * A slot is a double; values of other types are converted and stored in words of eight bytes, one for each slot, of
+ * which a transfer fills the first ones. 64-bit integers are exchanged exactly: `exact` contains them in addition to
+ * the slots, and is valid if its value, rounded to a double, equals the number in the slot.
  */
 
 #define WIDE 9223372036854775808.0 /* 2^63 */
@@ -13,7 +13,7 @@ static void refuse_slot(int64_t *outcome, int64_t slot)
     outcome[SUBJECT] = slot;
 }
 
-/* Convert slots to integers of a type, into words; returns whether they have changed. */
+/* Convert slots to integers of a type, stored in words; return true if they changed. */
 #define CONVERT(type, low, high) \
     do { \
         type *const numbers = (type *)(stored->sent + first); \
@@ -44,7 +44,7 @@ static bool convert_wide(int64_t slot, bool is_signed, const double *values, con
     return changed;
 }
 
-/* Convert slots to what an FMU is given; returns whether they have changed. One out of range is the outcome. */
+/* Convert slots to the values for an FMU; return true if they changed. A value out of range becomes the outcome. */
 static bool to_stored(
     int64_t kind, int64_t first, int64_t count, const double *values, const StoredValues *stored, int64_t *outcome)
 {
@@ -96,7 +96,7 @@ static bool to_stored(
 #define TAKE(type) \
     for (int64_t i = 0; i < count; i++) values[first + i] = (double)((const type *)(stored->sent + first))[i]
 
-/* Convert what an FMU has returned to slots. */
+/* Convert the values returned by an FMU to slots. */
 static void from_stored(int64_t kind, int64_t first, int64_t count, double *values, const StoredValues *stored)
 {
     switch (kind) {
@@ -119,14 +119,14 @@ static void from_stored(int64_t kind, int64_t first, int64_t count, double *valu
     }
 }
 
-/* The values of a transfer, of numbers: doubles are the slots themselves. */
+/* Return the values of a transfer of numbers; for doubles these are the slots themselves. */
 static void *values_of_transfer(const Run *run, const int64_t *transfer)
 {
     if (transfer[KIND] == FLOAT64) return run->buffers.values + transfer[FIRST_VALUE];
     return run->fmi3.stored.sent + transfer[FIRST_VALUE];
 }
 
-/* Exchange the numbers of a transfer, converted for a setter already; returns the fmi3Status. */
+/* Exchange the numbers of a transfer, which are already converted for a setter; return the fmi3Status. */
 static int exchange_transfer(const Run *run, uint64_t function, uint64_t instance, const int64_t *transfer)
 {
     const uint32_t *const references = run->fmi3.transfers.reference + transfer[REFERENCE];
@@ -134,7 +134,7 @@ static int exchange_transfer(const Run *run, uint64_t function, uint64_t instanc
     return exchange_values(function, instance, references, transfer[REFERENCES], values, transfer[VALUES]);
 }
 
-/* Take numbers of an FMU; returns the fmi3Status. `checks`: a Float that is not finite becomes the outcome. */
+/* Get numbers from an FMU; return the fmi3Status. With `checks`, a non-finite Float becomes the outcome. */
 static int get_transfer(const Run *run, uint64_t function, uint64_t instance, const int64_t *transfer, bool checks)
 {
     const int64_t first = transfer[FIRST_VALUE], count = transfer[VALUES], kind = transfer[KIND];
