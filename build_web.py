@@ -24,7 +24,7 @@ BUILT = ROOT / "build" / "web"
 PACKAGES = BUILT / "node_modules"
 LOCKED = ("package.json", "package-lock.json")
 SHIPPED = {"layout": "elkjs", "scene": "three"}  # packages contained in bundles
-EMBEDDED = "three"  # the one also contained in pages, whose licence must be included in full
+EMBEDDED = "three"  # the package also contained in pages, which must include its licence in full
 ELK_SOURCE = """
 elkjs 0.12.1, the Eclipse Layout Kernel as JavaScript, is unchanged in layout.js. Its source is at
 https://github.com/kieler/elkjs and in the package elkjs of the npm registry.

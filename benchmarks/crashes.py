@@ -22,7 +22,7 @@ from tests.support.foreign.odd_fmu import COUNTS, Call, Deed, odd_fmu
 
 REPEATS = 5
 FEW, MANY = 200, 2000
-STEP = 1e-4  # s, of 1 s
+STEP = 1e-4  # s; a trial simulates 1 s
 
 
 def main() -> None:

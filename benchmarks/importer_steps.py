@@ -121,4 +121,4 @@ def main() -> None:
 if __name__ == "__main__":
     main()
     sys.stderr.flush()
-    os._exit(0)  # before the destructors of pythonfmu's library
+    os._exit(0)  # ends before the destructors of pythonfmu's library run

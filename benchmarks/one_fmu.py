@@ -55,7 +55,7 @@ def container(name: str, folder: Path) -> PreparedSystem | None:
         path = folder / "packed.fmu"
         print(f"{name}: container of {path.stat().st_size / 1e3:.0f} kB")
         return prepare_system(path, SystemOptions(in_process=True, step=step, stop_time=1.0, open_inputs="start"))
-    except Exception as error:  # the toolbox raises many kinds
+    except Exception as error:  # the toolbox raises many kinds of exceptions
         print(f"{name}: no container: {type(error).__name__}: {str(error)[:200]}")
         return None
 

@@ -65,7 +65,7 @@ def main() -> None:
             _serve(answer, sys.argv[1], Path(sys.argv[2]))
         except (Unavailable, InputError) as reason:
             answer({"unavailable": str(reason)})
-        except Exception as error:  # a peer may raise anything; the benchmark continues without it
+        except Exception as error:  # a contestant may raise anything; the benchmark continues without it
             answer({"failed": f"{type(error).__name__}: {error}"})
             status = 1
     exit_process(status)

@@ -8,7 +8,7 @@ from statistics import median
 
 from .contestant import Contestant, Values
 
-# Time per step of the first over that of the second.
+# Ratios of the times per step of the first and the second contestant.
 PROMISED = (
     ("perilune_native", "fused_limit"),
     ("fmpy_simulate_ssp", "perilune_native"),

@@ -35,7 +35,7 @@ class Worker:
         start = f"{ending}; from {__package__}.serve import main; main()"
         command = [sys.executable, "-c", start, contestant, str(ssp)]
         # it ends without cleaning up; unpacked files are removed with the .ssp
-        paths = os.pathsep.join(filter(None, sys.path))  # where this module is
+        paths = os.pathsep.join(filter(None, sys.path))  # so that the process finds this module
         environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
@@ -72,7 +72,7 @@ class Worker:
 
     def __exit__(self, problem: type[BaseException] | None, *_: object) -> None:
         if problem is not None:
-            self._process.kill()  # its current task may take long
+            self._process.kill()  # killed, since its current task may take long
         self.close()
 
 

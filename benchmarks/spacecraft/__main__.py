@@ -18,7 +18,7 @@ TRIALS = (1, 5)
 def trial_time() -> float:
     """Return the processor time (s) of a trial of the campaign."""
     spent = []
-    for trials in (TRIALS[0], *TRIALS):  # the first one warms up
+    for trials in (TRIALS[0], *TRIALS):  # the first batch warms up
         begun = time.process_time()
         perilune.batch(SYSTEM, "dispersed", trials=trials, workers=1, engine="threads")
         spent.append(time.process_time() - begun)

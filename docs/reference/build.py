@@ -26,7 +26,7 @@ from .pages import TOP, derived_pages, reference_navigation
 DOCS = TOP / "docs"
 SETTINGS = DOCS / "site" / "site.toml"
 PYTHON = {
-    "docstring_style": "numpy",  # sections where there are any; the others are prose
+    "docstring_style": "numpy",  # numpydoc sections, if any; other docstrings are prose
     "filters": ["!^_"],
     "heading_level": 2,
     "members_order": "source",

@@ -17,7 +17,7 @@ def broken_links(site: Path) -> Iterator[tuple[str, str]]:
     pages = {path: html.parse(str(path)).getroot() for path in sorted(site.rglob("*.html"))}
     anchors = {path: set(root.xpath("//@id | //a/@name")) for path, root in pages.items()}
     for path, root in pages.items():
-        if path.name == "404.html":  # its links are from the top of a server
+        if path.name == "404.html":  # its links start from the root of a server
             continue
         for element in root.iter("a", "img", "link", "script"):
             target = element.get("href") or element.get("src")

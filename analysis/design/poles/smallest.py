@@ -23,7 +23,7 @@ _NEWTON_STEPS = 3  # steps; the second is within rounding if the first was small
 _RANK = 1e-12  # relative; half of the equations are redundant for conjugate poles
 _STARTS = 5  # number of smallest results of distributions to start from
 _ACCURACY = 1e-10  # tolerance of |F|^2, relative to the start's
-_STEPS = 100  # of one search
+_STEPS = 100  # iterations of one search
 _ROUNDS, _WORTH = 10, 0.01  # number of successive searches, and the least improvement of the last
 _ALLOWED = 1000.0 * np.finfo(float).eps  # share of kappa |Ac| by which rounding may displace the poles of an F
 

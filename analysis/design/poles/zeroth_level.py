@@ -34,7 +34,7 @@ from .smallest import polish
 from .spectrum import Spectrum
 
 _ORTHONORMAL = 1e-9
-_SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest required one; Newton does the rest
+_SOLVED = 1e-5  # residual of the coefficients, with poles in units of the largest; Newton's method does the rest
 _STEPS = 60  # iterations of a search; successful ones took fewer
 
 

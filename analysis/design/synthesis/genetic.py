@@ -43,14 +43,14 @@ class SearchState:
 
     random: np.random.Generator
     bases: list[Matrix]
-    code: int  # of the basic solution
+    code: int  # code of the basic solution
     generation: int = 0
     evaluations: int = 0
     flights: int = 0
     population: list[Candidate] = field(default_factory=list)
     known: dict[str, Evaluation] = field(default_factory=dict)
     front: list[Candidate] = field(default_factory=list)  # Pareto set of all evaluated candidates
-    champion: Candidate | None = None  # most successes
+    champion: Candidate | None = None  # candidate with most successes
     history: list[dict[str, float]] = field(default_factory=list)
     succeeded: bool = False
 

@@ -29,7 +29,7 @@ class SynthesisOutcome:
     search: Search
     provenance: Mapping[str, object]
     ended: str
-    folder: Path | None = None  # in which it is stored
+    folder: Path | None = None  # folder in which the result is stored
 
     @property
     def law(self) -> NetworkOperator:

@@ -27,7 +27,7 @@ SCALARS = (
     "moon_radius",
     "gravitational_parameter",
     "target_altitude",
-)  # the attributes: each a parameter, or a number
+)  # attributes of the annotation, each a parameter or a number
 STOP = ("altitude",)  # a piece from the same start to rest higher above the site
 HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # a piece from hover to hover
 ASIDE = "aside"  # the vector from site to site

@@ -12,7 +12,7 @@ from .path import PlanError
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
-INTERVALS = 80  # default intervals of each
+INTERVALS = 80  # default number of intervals of each descent
 ACCURACY = 0.1  # s, accuracy of the duration
 
 Bounded = tuple[float, float]

@@ -9,7 +9,7 @@ import numpy as np
 from ....common.errors import EndedError, ExitStatus
 
 OFF = 0.02  # share of the range from least to full throttle, above which an interval belongs to a burn
-ALL = 1.0 - 1e-6  # share above which it counts as full
+ALL = 1.0 - 1e-6  # share above which an interval counts as full thrust
 
 
 class PlanError(EndedError):

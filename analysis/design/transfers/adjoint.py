@@ -136,7 +136,7 @@ def integrate_adjoint(optimum: OptimalPath, vehicle: Vehicle, transfer: Transfer
     angle, rate = (column[:-1, np.newaxis] for column in optimum.attitude.T)
     swing = optimum.acceleration[:, np.newaxis]
     pitch = angle + rate * since + swing * since**2 / 2.0
-    ratio = 1.0 - optimum.propellant[:-1, np.newaxis] - thrust / speed * since  # of the mass to the initial one
+    ratio = 1.0 - optimum.propellant[:-1, np.newaxis] - thrust / speed * since  # ratio of the mass to the initial mass
     lift = thrust * np.sin(pitch) / ratio
 
     multipliers = optimum.costates[:, IN_ORDER] * np.array([1.0, 1.0, 1.0, 1.0, full / speed, 1.0, 1.0])
@@ -178,7 +178,7 @@ def zeros_of(time: np.ndarray, values: np.ndarray) -> list[float]:
 
 def _integrate_back(end: float, derivative: np.ndarray, span: float) -> np.ndarray:
     """Return a function at all nodes from its derivative at the nodes and its value at the end of the last interval."""
-    to_end = span * derivative @ INTEGRALS.T  # of its interval, from each node on
+    to_end = span * derivative @ INTEGRALS.T  # integral from each node to the end of its interval
     later = np.cumsum(to_end[::-1, 0])[::-1] - to_end[:, 0]
     return end - later[:, np.newaxis] - to_end
 

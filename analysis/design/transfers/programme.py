@@ -16,7 +16,7 @@ from ....fmus_src.mathlib.hover.solution import PlanKind, propellant_fraction
 from ..trajectories.path import PlannedPath
 from ..trajectories.vehicle import Transfer, Vehicle
 
-STEP = 0.25  # s, of a path
+STEP = 0.25  # s, step of a path
 DURATIONS = (0.84, 1.22, 27)  # relative to the best: from, to, count
 DISTANCES = (1.6, 25)  # relative to the requested one: to, count
 

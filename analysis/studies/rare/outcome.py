@@ -17,7 +17,7 @@ from ..units import unit_of_expression
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .uncertainty import CONFIDENCE, significant_digits
 
-TOLD = 5  # failures
+TOLD = 5  # number of listed failures
 APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
 
 

@@ -20,7 +20,7 @@ Function = Callable[[np.ndarray], np.ndarray]
 GLOBAL = 0.75  # share of the evaluations for the evolution
 PER_DIMENSION, FEWEST = 5, 20  # members of a generation
 RADII = (0.1, 1e-4)  # radii of COBYQA's trust region, in edges of the cube
-LEAST = 100  # evaluations
+LEAST = 100  # least number of evaluations
 
 
 class SearchPhase(NamedTuple):

@@ -224,12 +224,12 @@ class Function:
     parts: dict[ast.expr, range] = field(default_factory=dict)  # v[1:4], by number
     blocks: dict[ast.expr, tuple[range | None, range | None]] = field(default_factory=dict)  # p[i, 3:6]: None, range
     constants: dict[ast.expr, Constant] = field(default_factory=dict)
-    # of ranges.py
+    # results of ranges.py
     ranges: dict[str, IntegerRange] = field(default_factory=dict)
     parameter_ranges: dict[str, IntegerRange] = field(default_factory=dict)
     unproven: set[ast.AST] = field(default_factory=set)
     unproven_indices: set[ast.expr] = field(default_factory=set)  # of a matrix, in subscripts that are unproven
-    # of effects.py
+    # results of effects.py
     changed_lists: set[str] = field(default_factory=set)
     changes_block: bool = False
     can_fault: bool = False
