@@ -13,9 +13,7 @@ from perilune.fmus_src.face import HOMES
 
 from .markdown import escaped, prose, table
 
-CALLED = {
-    verb.home[1]: verb for verb in VERBS.values() if not verb.is_command_alone
-}  # verbs by the name of their function
+CALLED = {verb.home[1]: verb for verb in VERBS.values() if not verb.is_command_alone}  # by name of the verb's function
 WRITING = [name for names in HOMES.values() for name in names]  # names for writing blocks
 
 

@@ -8,8 +8,8 @@ import shutil
 import sys
 from dataclasses import dataclass
 
-# -O3 optimises calls and branches. -fno-tree-vectorize is for reproducible bits: GCC's vectoriser fuses a difference next
-# to a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed, since vector
+# -O3 optimises calls and branches. -fno-tree-vectorize is for reproducible bits: GCC's vectoriser fuses a difference
+# next to a sum with their products even under -ffp-contract=off (`kernel_self_test.h`). It costs no speed, since vector
 # instructions do not pay in loops of three or nine passes. Without errno a square root is one instruction.
 SOURCE_OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fno-tree-vectorize")  # for importers that compile sources/
 FLAGS = ("-O3", "-fno-tree-vectorize", "-fno-math-errno", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
