@@ -24,22 +24,22 @@ def interface_pages() -> dict[str, str]:
     modal = import_module("perilune.modal")
     return {
         "flying.md": _page(
-            "Flying and studying",
-            "`import perilune` gives what flies systems, campaigns and studies, and what they return.",
+            "Simulations and studies",
+            "`import perilune` provides simulations, campaigns and studies, and the types of their results.",
             "perilune",
             sorted(flying, key=lambda name: (name[0].isupper(), name)),
         ),
         "blocks.md": _page(
             "Writing blocks",
-            "`from perilune import ...` gives what a block of your own takes: see "
-            "[write your own guidance](../../write_your_own.md). [Slots](../slots.md) has the connectors of each "
+            "`from perilune import ...` provides the names that a user's block needs: see "
+            "[write your own guidance](../../write_your_own.md). [Slots](../slots.md) lists the connectors of each "
             "interface.",
             "perilune",
             [name for name in WRITING if name in public],
         ),
         "modal.md": _page(
             "perilune.modal",
-            f"{prose(modal.__doc__, '../../')}\n\n[Modal synthesis](../../modal_synthesis.md) says which to take.",
+            f"{prose(modal.__doc__, '../../')}\n\n[Modal synthesis](../../modal_synthesis.md) helps to choose.",
             "perilune.modal",
             sorted(_names_of("perilune.modal"), key=lambda name: (name[0].isupper(), name)),
         ),

@@ -28,12 +28,12 @@ from perilune.fmus_src.kernel.integrators import count_steps, runge_kutta_4, run
 from .markdown import escaped, table
 
 STATEMENTS = (
-    ("`x = ...`, `x += ...`, `self.x = ...`, `v[k] = ...`", "a variable, one that is declared, an element of a list"),
-    ("`a, b = f(...)`", "several values of a function at once"),
+    ("`x = ...`, `x += ...`, `self.x = ...`, `v[k] = ...`", "a local or declared variable, an element of a list"),
+    ("`a, b = f(...)`", "several return values of a function"),
     ("`if`, `elif`, `else`; `a if c else b`", "a condition is a bool: compare numbers"),
     ("`for i in range(...)`, `while`, `break`, `continue`", "the step of a range is a constant"),
     ("`return`", "values of one type on every path"),
-    ("`and`, `or`, `not`", "of bools"),
+    ("`and`, `or`, `not`", "operators on bools"),
 )
 SYMBOLS = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.MatMult: "@", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
@@ -49,37 +49,37 @@ def kernel_page() -> str:
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
     parts = [
         f"# {LANGUAGE_PAGE}",
-        "`initialize`, `step` and all that they call are a *kernel*: plain Python, which `perilune export` also "
-        "writes as C with the same bits. What is refused is named with its line and with what to write instead. A "
-        "block that needs more says `python_only = True`, and then has a Python FMU only.",
+        "`initialize`, `step` and all functions that they call form a *kernel*: plain Python, which `perilune export` "
+        "also translates to C with the same bits. An unsupported construct is reported with its line and an "
+        "alternative. A block that needs more declares `python_only = True`, and then has only a Python FMU.",
         "## Statements",
-        table(["what", "how"], STATEMENTS),
+        table(["statement", "use"], STATEMENTS),
         "## Numbers",
         f"`float`, `int` of 64 bits and `bool`, with {operators}, and the functions "
         f"{', '.join(f'`{name}`' for name in BUILTIN_FUNCTIONS)}. Two to four floats are a vector: `vector(x, y, z)`, "
-        "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More are a list of a fixed size: `[0.0] * n`.",
-        "A matrix of fixed size is made by `matrix([a, b], [c, d])`, `zeros(2, N + 2)` or `identity(3)`, with `+` `-` "
-        "`@`, `*` and `/` by numbers, and `p.T`; `p[i, j]` is an element, `p[POSITION, VELOCITY]` a block, with "
+        "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More floats are a list of fixed size: `[0.0] * n`.",
+        "A matrix of fixed size is created by `matrix([a, b], [c, d])`, `zeros(2, N + 2)` or `identity(3)`, with `+` "
+        "`-` `@`, `*` and `/` by numbers, and `p.T`; `p[i, j]` is an element, `p[POSITION, VELOCITY]` a block, with "
         "`POSITION = block(0, 3)` at the top of the file.",
-        'Values with names are a record: `class Motion(Record)` with fields `speed = Field(unit="m/s")`; write '
+        'A record has named fields: `class Motion(Record)` with `speed = Field(unit="m/s")`; write '
         "`Motion(speed=v)`, `replace(s, speed=v)`, `s.speed`.",
         "## Integrators",
-        "They call a function that they are given: `runge_kutta_4(self.derivatives, t, self.state, h, force)`. "
+        "Integrators call a function passed to them: `runge_kutta_4(self.derivatives, t, self.state, h, force)`. "
         "Write `from perilune import runge_kutta_4`.",
         table(["function", "result"], _signatures(INTEGRATORS)),
         "## Elementary functions",
-        f"Write `from perilune import {', '.join(list(ELEMENTARY_FUNCTIONS)[:3])}` at the top of the file. They have "
-        "the same bits on every processor, in Python and in C, which those of `math` do not; their errors are below "
+        f"Write `from perilune import {', '.join(list(ELEMENTARY_FUNCTIONS)[:3])}` at the top of the file. Unlike "
+        "functions of `math` they give the same bits on every processor, in Python and in C; their errors are below "
         "one unit in the last place.",
         table(["function", "arguments", "ends the run with"], _rows(ELEMENTARY_FUNCTIONS, "")),
         "## math",
-        f"What is exact everywhere comes from `math`: write `import math` at the top of the file. Constants: "
+        f"Functions that are exact everywhere come from `math`: write `import math` at the top of the file. Constants: "
         f"{constants}.",
         table(["function", "arguments", "ends the run with"], _rows(MATH_FUNCTIONS, "math.")),
         "## mathlib",
-        "Functions of kernels that blocks here are written with; write "
-        "`from perilune.fmus_src.mathlib.MODULE import NAME`. `cross`, `dot`, `norm` and `vector` come from "
-        "`perilune`, too.",
+        "Kernel functions used by the blocks of this repository; write "
+        "`from perilune.fmus_src.mathlib.MODULE import NAME`. `cross`, `dot`, `norm` and `vector` also come "
+        "from `perilune`.",
     ]
     for name, functions in _helpers():
         parts += [f"### {name}", table(["function", "result"], _signatures(functions))]

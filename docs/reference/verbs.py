@@ -19,7 +19,7 @@ def verbs_page() -> str:
     rows = [[f"[{name}](#{name.replace(' ', '-')})", escaped(verb.text)] for name, verb in VERBS.items()]
     parts = [
         "# Verbs",
-        "What `perilune VERB --help-all` prints. [The command line](../command_line.md) says how options go together.",
+        "Output of `perilune VERB --help-all`. [The command line](../command_line.md) explains how options combine.",
         table(["verb", "what it does"], rows),
     ]
     for name, verb in VERBS.items():
