@@ -46,9 +46,9 @@ def place_integral(
 ) -> IntegralFeedback:
     """Return the gains of **u = -K x - Ki q**, q' = C x - r, that place the n + p poles of state and integrals.
 
-    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p outputs without error at rest, p <= m; ``poles`` are in
-    1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`. Raises InputError;
-    PlacementError for an uncontrollable plant, or one with a zero at rest.
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p <= m outputs that equal the reference at rest; ``poles``
+    are in 1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`. Raises
+    InputError; PlacementError for an uncontrollable plant, or one with a zero at rest.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))

@@ -1,7 +1,7 @@
 """Set of all output feedbacks of a plant, and common feedback of several plants, by the generalised Ackermann formula.
 
-A state feedback K(N) is an output feedback, K = -F C, if K(N) C^perp = 0. That is linear in the N_i; m p numbers z
-remain free: N = N* + sum z_j N^j. The spectrum is that of the block companion of N.
+A state feedback K(N) is an output feedback, K = -F C, if K(N) C^perp = 0. This condition is linear in the N_i and
+leaves m p numbers z free: N = N* + sum z_j N^j. The poles are the eigenvalues of the block companion of N.
 
 Plants A(q_k), k = 1 .. s, with the same B and C can have a common F (m, p): a regulator independent of a plant's
 parameters. Prescribed elements of the N_i have one value for all plants, the others are unknown for each plant. For all

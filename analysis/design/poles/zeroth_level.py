@@ -39,7 +39,7 @@ _STEPS = 60  # iterations of a search; successful ones took fewer
 
 
 class ZerothLevel:
-    """Zeroth level of a plant with full ranks: m + p >= n."""
+    """Zeroth level of a plant with full ranks and m + p >= n."""
 
     def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray, basis: np.ndarray | None = None) -> None:
         """Decompose A (n, n), B (n, m), C (p, n); ``basis`` is P' (n, n - m), by default from the null space of B'.

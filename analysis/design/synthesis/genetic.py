@@ -150,7 +150,7 @@ class Search:
         state.population = elites + self._evaluate([basic, *others])
 
     def _evaluate(self, genes: Sequence[Genes], bar: AdmissionThreshold | None = None) -> list[Candidate]:
-        """Evaluate genes, except for laws that are known or that the bar rejects on known results.
+        """Evaluate genes, except for known laws and for laws that the bar already rejects on the known trials.
 
         Only the evaluation of a rejected law is stored, complete or not, so that early rejection does not change the
         search.

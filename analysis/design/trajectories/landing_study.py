@@ -64,7 +64,7 @@ def landing_study(
     intervals: int | None = None,
     pieces: Mapping[str, tuple[PointMassProblem, float]] | None = None,
 ) -> LandingStudy:
-    """Compute the bound, and with ``direct`` its verification; ``pieces`` as `pieces_of` returns them.
+    """Compute the bound and, with ``direct``, its verification; ``pieces`` is the result of `pieces_of`.
 
     Raises `PlanError`, and InputError for a missing solver.
     """

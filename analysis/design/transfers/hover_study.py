@@ -106,10 +106,10 @@ def hover_study(
 ) -> HoverStudy:
     """Plan a transfer; ``duration`` (s) is t7 of the programme, by default the one of least propellant.
 
-    ``optimum``, ``bound``, ``curves``, ``adjoint`` and ``free_fall`` request further results. Optimum and bound are
-    computed on a number of ``intervals`` with solvers that must be installed; ``adjoint`` requires the optimum.
-    ``turn_begun`` (a fraction of the turn) and ``distances`` (m) apply to ``free_fall``. Raises `PlanError`, and
-    InputError for a missing solver.
+    ``optimum``, ``bound``, ``curves``, ``adjoint``, ``finite_switches`` and ``free_fall`` request further results.
+    Optimum and bound are computed on a number of ``intervals`` with solvers that must be installed; ``adjoint``
+    requires the optimum. ``turn_begun`` (a fraction of the turn) and ``distances`` (m) apply to ``free_fall``. Raises
+    `PlanError`, and InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)
     programme = find_programme(planned, transfer, duration)

@@ -135,7 +135,7 @@ class _Search:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
     def result(self, flights_of: SampleEvaluator, objective: Objective) -> WorstOutcome:
-        """Return the worst of random trials and of a search from them. Raises InputError."""
+        """Return the worst case of random trials and of a search that starts from these. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
         budget = self._flights - (

@@ -58,7 +58,7 @@ class MatrixEntries:
         return self._product(node) if is_matmul(node) else self._elementwise(node)
 
     def holder(self, node: ast.expr) -> str:
-        """Return the C text that is indexed for an element: ``p->x``, ``self->covariance.x``."""
+        """Return the C text of the array that contains an element: ``p->x``, ``self->covariance.x``."""
         text = self.expressions.write(node, ATOM)
         return f"{text[2:-1]}->x" if text.startswith("(*") else f"{text}.x"
 
