@@ -51,7 +51,7 @@ FORMER = {
 
 
 def stand_in(module: str) -> str:
-    """Return the source of a module under a former name, which imports the module under its present name."""
+    """Return the source of a module with a former name, which imports the module of the present name."""
     folder, _, name = FORMER[module].rpartition(".")
     return f"import sys\nfrom {PACKAGE}.{folder} import {name}\nsys.modules[__name__] = {name}\n"
 

@@ -16,17 +16,17 @@ class ThrustAllocation(Allocation):
 
     with a constant random error e. The lag is exact for a demand that is constant over the step; the plant holds the
     output, which adds half a step of delay. With a slew limit the direction turns towards the commanded one at a mean
-    rate of at most slew_rate_limit over each step, and by no more than 1.5 rad in one step; it starts aligned and at
-    rest. All limits are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the
-    maximum.
+    rate of at most slew_rate_limit over each step, and by no more than 1.5 rad in one step; it starts aligned and
+    without a rate. All limits are off by default. If minimum_thrust exceeds maximum_thrust, the status is 2 and only
+    the maximum limits the thrust.
 
     thrust_lead ends the burn early, to compensate the impulse that a first-order lag leaves after cut-off.
     direction_lead commands the future direction, to compensate a first-order attitude response.
 
     A demand between dead_band_low and dead_band_high, as fractions of maximum_thrust, keeps the engine on the side of
     this dead band on which it was; above the band the engine gives full thrust, below it the commanded thrust. For
-    Apollo's descent engine the fractions were 0.57 and 0.63 (Klumpp 1974). Reversed bounds, or a dead band without
-    maximum_thrust, are status 2.
+    Apollo's descent engine the fractions were 0.57 and 0.63 (Klumpp 1974). For reversed bounds, or a dead band without
+    maximum_thrust, the status is 2.
 
     Assumes thrust through the centre of mass.
 

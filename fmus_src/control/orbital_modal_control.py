@@ -8,13 +8,13 @@ from .orbital_control import OrbitalControl
 
 
 class OrbitalModalControl(OrbitalControl):
-    """Modal control with two levels: decay of the angles with angle_poles, of the deviation with rate_poles.
+    """Modal control with two levels: the angles a decay with angle_poles, their deviation z with rate_poles.
 
         u = J ((N A_11 - S_0 N - A_21) a + (N + S_0 - A_22) (ω - ω_p))    N = S_1 - A_11
         a' = S_1 a + z    z' = S_0 z
 
-    S_1 and S_0 are diagonal matrices of minus the poles; the gains are computed from the inertia known on board. The
-    law is linear in yaw.
+    A_ij are the 3 x 3 blocks of the linearised motion of a and ω - ω_p; S_1 and S_0 are diagonal matrices of minus the
+    poles. The gains are computed from the inertia known on board. The law is linear in yaw.
 
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """

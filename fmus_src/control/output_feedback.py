@@ -11,9 +11,9 @@ class OutputFeedback(EntryControl):
 
         u = F (e, ω_x - γ_r' c_0, ω_y + γ_r' s_0) + J (c_0, -s_0, 0) γ_r''
 
-    with the sine s_0 and cosine c_0 of trim_attack. F places the poles of bank, sideslip and the two rates at one
-    dynamic pressure, or is interpolated between three in the logarithm of pressure. The parameter sets
-    output_feedback_*.ssv of entry_attitude contain other gains, computed by `make gains`.
+    with bank error e, reference bank γ_r, and sine s_0 and cosine c_0 of trim_attack. F places the poles of bank,
+    sideslip and the two rates at one dynamic pressure, or is interpolated between three in the logarithm of pressure.
+    The parameter sets output_feedback_*.ssv of entry_attitude contain other gains, computed by `make gains`.
 
     Source: Lapin, thesis, chapters 2 and 3.2. See docs/systems/entry_attitude.md.
     """

@@ -1,4 +1,6 @@
-"""Interface of observers of the orbital attitude, which estimate yaw and all rates from roll, pitch and gyro rates."""
+"""Interface of observers of the orbital attitude, which estimate angles and rates from samples of roll, pitch and
+gyros.
+"""
 
 import math
 

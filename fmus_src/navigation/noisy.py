@@ -23,7 +23,7 @@ class NoisyNavigation(Navigation):
 
         v^+ = v + (f + g) h    r^+ = r + v h + (f + g) h^2/2
 
-    Fixes follow one another in their periods from the start on, with at most one of each kind at a communication point.
+    Fixes are due at multiples of their periods after the start, with at most one of each kind at a communication point.
     The initial estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A sigma of 0
     switches its sensor off; with both off the estimate is the truth. The sensor inputs of the slot and central gravity
     are not used. In free flight the specific force is 0.

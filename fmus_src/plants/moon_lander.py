@@ -96,8 +96,10 @@ class MoonLander(Block, interface=True):
         self.ground_contact = self.altitude <= 0.0
 
     def divide(self, response: float) -> None:
-        """Set longest_step to the largest equal part of internal_step that exceeds neither the thrust lag nor
-        ``response`` (s; 0: none), but at least to 1/100.
+        """Set longest_step to internal_step/n, with the least n that brings it to at most the thrust lag and
+        ``response``.
+
+        Both are in s; 0 means that there is none. n is at most 100.
         """
         shortest = self.internal_step
         if response > 0.0 and response < shortest:

@@ -16,7 +16,10 @@ SMALLEST_VOLUME = 1e-9  # volume spanned by three unit axes, below which they co
 
 
 def unit_axes(rows: Matrix) -> Matrix:
-    """Return A (3 x 4) from a 4 x 3 matrix with the axes, of any length, as rows; an axis of 0 gives a column of 0."""
+    """Return the unit axes as the columns of A (3 x 4) from axes of any length in the rows of a 4 x 3 matrix.
+
+    An axis of length 0 gives a column of zeros.
+    """
     a = zeros(3, WHEELS)
     for j in range(WHEELS):
         length = norm(rows[j, 0:3])

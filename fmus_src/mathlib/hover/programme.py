@@ -21,7 +21,7 @@ LARGEST_PATH = 60  # programmes
 
 
 class PlannedProgramme(Record):
-    """Result of a search."""
+    """Result of a search for a programme."""
 
     kind = Field(int, description="form of the programme, a `PlanKind`")
     programme = Field(HoverProgramme, description="planned programme; all times 0 for PlanKind.NONE")

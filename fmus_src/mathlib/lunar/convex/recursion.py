@@ -212,7 +212,7 @@ def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, ste
 def dual_residual(p: DescentProblem, gradient: list, costate: list) -> float:
     """Set the costates (7 per node); return the largest derivative of the Lagrangian by a control or a bound.
 
-    `set_gradient` sets the ``gradient`` with the multipliers.
+    ``gradient`` is the result of `set_gradient` with the multipliers.
     """
     h = p.step
     last = STATE * INTERVALS
