@@ -21,7 +21,7 @@ class MagneticControlStatus(Enumeration):
 class MagneticControl(Block):
     """B-dot law for detumbling, and cross-product law for unloading wheels, by magnetic torquers.
 
-    With the field samples B and, T earlier, B_last, and the wheels' momentum h:
+    With the last field sample B, the sample B_last a time T earlier, and the wheels' momentum h:
 
         m = -(k/|B|^2) (B - B_last)/T    detumble
         m = (k_u/|B|^2) (h - h_0) × B    unload

@@ -24,7 +24,7 @@ def diagonal(v: Vector) -> Matrix:
 
 
 def outer(v: Vector, w: Vector) -> Matrix:
-    """Return v w'."""
+    """Return the outer product v w'."""
     a = zeros(len(v), len(w))
     for i in range(len(v)):
         for j in range(len(w)):

@@ -1,6 +1,4 @@
-"""Interface of observers of the orbital attitude, which estimate angles and rates from samples of roll, pitch and
-gyros.
-"""
+"""Interface of observers of the orbital attitude, which estimate angles and rates from roll, pitch and gyro samples."""
 
 import math
 

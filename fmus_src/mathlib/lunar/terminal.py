@@ -139,8 +139,7 @@ def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight:
 
 
 def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
-    """Return the thrust a0 + a1 t over ``span`` (s): magnitude of its mean, initial direction, and rate of the
-    direction.
+    """Return the thrust a0 + a1 t over ``span`` (s): mean magnitude, initial direction, and rate of the direction.
 
     For a0 = 0 the direction is the direction of the mean and its rate is 0; without thrust, the arguments ``direction``
     and ``rate`` are returned.
