@@ -21,8 +21,8 @@ class MetricStatistics:
     """Statistics of a metric over trials, in ``unit``.
 
     ``mean``, sample standard deviation ``std``, ``max``, ``min`` and ``rms`` are computed from the ``count`` finite
-    values. The quantiles ``p5`` to ``p99`` include infinite values but not nan; each is the value of a trial.
-    Statistics are None if there are too few values: fewer than two for ``std``, none for the others.
+    values. The quantiles ``p5`` to ``p99`` include infinite values but not nan; each is the value of a trial. ``std``
+    is None with fewer than two values, and the other statistics are None without any value.
     """
 
     count: int

@@ -112,7 +112,7 @@ def summarise(
     requirements: Sequence[Requirement] = (),
     until_decided: bool = False,
 ) -> Summary:
-    """Return the summary of all variants by name; metrics and units are those of the tables' columns.
+    """Return the summary of all variants by name, with the metrics and units of the tables' columns.
 
     Every variant has at least one trial. ``groups`` are the groups of trials by values of the draw ``by``. Verdicts are
     from `requirement_verdict`.

@@ -54,7 +54,7 @@ class PlannedExperiment:
 
 @dataclass(frozen=True)
 class Plan:
-    """The experiments of a manifest to simulate; ``notes`` state which others are not simulated, and why."""
+    """The experiments of a manifest to simulate; ``notes`` state which experiments are not simulated, and why."""
 
     experiments: tuple[PlannedExperiment, ...]
     notes: tuple[str, ...]

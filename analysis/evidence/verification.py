@@ -79,7 +79,7 @@ def _repeat_studies(
     options: SystemOptions,
     timeout: float | None,
 ) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
-    """Return the repeated studies, the studies whose results equal their reports, and the differences of the others."""
+    """Return the repeated studies, the studies that equal their reports, and all differences from the reports."""
     studies, reproduced, problems = [], [], []
     for related in manifest.files:
         if related.study is None or related.name is None or related.name not in files:

@@ -51,7 +51,7 @@ class ExportRequest:
             raise InputError("`studies`", self.studies[0], problem, "leave out `studies` or `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
-        """Return the requested platforms, by default those of the installed package or the available compilers."""
+        """Return the requested platforms, by default of the installed package or of the available compilers."""
         if self.platforms:
             return list(self.platforms)
         return platforms_of(2) if prebuilt and self.fmi == 2 and not IS_CHECKOUT else available_platforms(self.fmi)

@@ -65,7 +65,7 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
 
 
 def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> None:
-    """Reject lookup tables that were computed for other trials than those of a variant. Raises InputError."""
+    """Reject lookup tables that were not computed for the trials of every variant. Raises InputError."""
     for lookup in plan.campaign.lookups:
         checked: list[dict[str, float]] = []
         for variant, prepared in systems.items():

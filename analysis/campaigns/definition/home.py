@@ -15,12 +15,12 @@ FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # in a system's folder
 
 
 def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
-    """Return the system with which a campaign's file is checked: the one in whose folder of campaigns the file is.
+    """Return the system with which a campaign's file is checked: the system with the file in its folder of campaigns.
 
     For other files with ``named`` systems (paths or names), it is the named system whose name the file states, or else
-    the first. Without named systems, it is Perilune's system whose name the file states or, if the file states none,
-    the first with a campaign that the file extends by name. None is returned if there is no such system. Raises
-    InputError for a file that is not TOML.
+    the first named system. Without named systems, it is Perilune's system whose name the file states or, if the file
+    states no name, the first with a campaign that the file extends by name. None is returned if there is no such
+    system. Raises InputError for a file that is not TOML.
     """
     for folder in path.resolve().parents:
         holds = any(path.resolve().is_relative_to(folder / each) for each in FOLDERS)

@@ -33,7 +33,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
 
     ``sweeps`` are texts low:high:step by parameter, in the parameter's unit; the values are low + k step, up to and
     including high. They replace values of the campaign's [set]. A single sweep also groups the results if the campaign
-    has no group. Raises InputError for a malformed sweep, or one that the campaign excludes.
+    has no group. Raises InputError for a sweep that is malformed, or that the campaign excludes.
     """
     if not sweeps:
         return campaign

@@ -6,7 +6,7 @@ and Sobol sequences, however, are designs of the complete table.
 
 Counter-based draws need no table. Trials are divided into blocks of 1024, independently of shards. The values of a draw
 in a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the
-block's number: no two blocks and no two names share a random number. The values differ from those of a table.
+block's number: no two blocks and no two names share a random number. The two schemes draw different values.
 """
 
 from __future__ import annotations

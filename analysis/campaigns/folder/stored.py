@@ -1,4 +1,4 @@
-"""Reader of a complete campaign from the folder that `perilune batch --output` wrote, for comparison with others."""
+"""Reader of a complete campaign from the folder that `perilune batch --output` wrote, for comparisons of campaigns."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ def _column(draw: str) -> str:
 
 
 def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable], path: Path) -> None:
-    """Reject a summary with variants or success rates that differ from those of the table."""
+    """Reject a summary with variants or success rates that differ from the table's."""
     if list(document["variants"]) != list(variants):
         raise InputError(path, "variants", "differ from the variants in trials/", NEW_FOLDER)
     for name, trials in variants.items():

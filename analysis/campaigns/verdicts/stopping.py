@@ -72,9 +72,9 @@ class StoppingRule:
     def decision(self, kept: np.ndarray) -> Decision:
         """Return the first verdict on simulations in order; ``kept`` is True for those that satisfy the requirement.
 
-        Later simulations are ignored. An undecided result is that of the last look, or has no simulations if there is
-        no look. The consumer's risk is the probability of having met the requirement at an earlier look, or with at
-        most as many failures at this look.
+        Later simulations are ignored. If no look decides, the undecided result of the last look is returned; without
+        any look it contains no simulations. The consumer's risk is the probability of having met the requirement at an
+        earlier look, or with at most as many failures at this look.
         """
         failed = np.flatnonzero(~np.asarray(kept, dtype=bool))
         last = failures = 0

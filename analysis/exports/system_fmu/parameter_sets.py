@@ -32,7 +32,7 @@ class ConvertedSets:
 def other_parameter_sets(
     preparation: Preparation, system: SystemElement, declared: Sequence[FmuVariable]
 ) -> ConvertedSets:
-    """Return the other sets of the ``system``, each reduced to the values of ``declared`` variables that it changes."""
+    """Return the system's other parameter sets, each reduced to its changes of ``declared`` variables."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
     for file in _others(preparation, system):

@@ -69,8 +69,8 @@ class InstructionList(InstructionRows):
     def drive(self, group: int, *, started: bool) -> None:
         """Write the values of a component's inputs that are driven over time; group -1 is the system connectors.
 
-        The values are those of the communication point if the simulation has ``started``, else those of the
-        initialisation.
+        Once the simulation has ``started``, the values at the communication point are used, before it the values for
+        the initialisation.
         """
         first, count = self.drives[group]
         if count:
@@ -200,7 +200,7 @@ def write_renewal(
     """Write instructions that update inputs after a system's inputs or faulty parameters changed between two steps.
 
     The instructions are returned by component, for the components that step in the next section (number ``part``) with
-    inputs from the start of the step. Other arguments are those of `write_instructions`.
+    inputs from the start of the step. For other arguments see `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):

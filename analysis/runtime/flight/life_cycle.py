@@ -118,7 +118,7 @@ class LifeCycle:
         return True
 
     def _readdress(self, index: int, instance: Instance) -> None:
-        """Replace the addresses of a component's former instance in the program by those of its new instance."""
+        """Replace the addresses of a component's former instance in the program by addresses of its new instance."""
         rows = self._program.instructions
         calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
         in_memory = calls & np.isin(rows[:, codes.CODE], codes.IN_MEMORY)

@@ -77,7 +77,7 @@ def make_layout(
     injections: Sequence[Injection] = (),
     additional: Collection[str] = (),
 ) -> Layout:
-    """Return the layout of a simulation without building its program; the arguments are those of `build_program`."""
+    """Return the layout of a simulation without building its program; for the arguments see `build_program`."""
     return _Builder(network, settings, requested, injections, additional).layout()
 
 

@@ -130,7 +130,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:
-    """Reject C code whose memory layout differs from that of the FMU's binary, since it belongs to another program."""
+    """Reject C code with another memory layout than the FMU's binary, since it belongs to another program."""
     offset_of = getattr(library, f"{code.prefix}offset_of")
     offset_of.restype, offset_of.argtypes = ctypes.c_uint32, [ctypes.c_uint32]
     for variable in instance.fmu.variables.values():

@@ -1,7 +1,7 @@
 """C statements equivalent to the loop's instructions.
 
 Every statement has the effect that `loop/c/loop.c` gives its code, with the same order of operations and, on failure,
-the same outcome: results are bitwise equal to those of interpreted instructions.
+the same outcome: compiled and interpreted instructions have bitwise equal results.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ INSTANCE_POINTER = "c{}"  # pointer to a component whose C code is in the unit
 
 
 class Instruction(NamedTuple):
-    """Instruction of the loop with its ``number``; the columns are those of `codes`."""
+    """Instruction of the loop with its ``number``; for the columns see `codes`."""
 
     number: int
     code: int
@@ -34,7 +34,7 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True)
 class Statements:
-    """Writer of statements for a ``program``; ``prefixes`` are those of components whose C code is in the unit."""
+    """Writer of statements for a ``program``; ``prefixes`` are the prefixes of components with C code in the unit."""
 
     program: arrays.Program
     prefixes: Mapping[int, str]

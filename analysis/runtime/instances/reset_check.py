@@ -54,7 +54,7 @@ def try_renewals(
 
     A first instance is simulated with the declared values. A second instance is simulated with other parameters and
     inputs, reset, and simulated with the declared values. If the reset fails, a third instance is simulated with the
-    declared values. Outputs and parameters must equal those of the first instance bit for bit, and process and folder
+    declared values. Outputs and parameters must be equal to the first instance's bit for bit, and process and folder
     must be unchanged. ``simulated`` is called with the SHA-256 of the first instance's outputs and parameters.
     """
     with LOADING, chdir(Path.cwd()):  # restores the folder if the FMU changes it

@@ -131,7 +131,7 @@ class ServerProcess:
 
 
 class SpawnedChild:
-    """Child with a new interpreter, which takes a second to load; its interface is that of `ForkedChild`."""
+    """Child with a new interpreter, which takes a second to load, and with the interface of `ForkedChild`."""
 
     def __init__(self, subject: Subject, task: messages.Task, folder: str, memory: int, files: Sequence[int]):
         self.channel, theirs = socket.socketpair()

@@ -54,9 +54,9 @@ class ComponentInstance(ABC):
     def set(self, values: Mapping[str, Sample]) -> None:
         """Set all inputs that are connected or driven, and parameters that change during simulation.
 
-        This method is called in initialisation mode, and once before every step: with values at the start of the step
-        for components that step together, with values at its end for components that follow others. Raises
-        NonFiniteError, TerminationError.
+        This method is called in initialisation mode, and once before every step. Components that step together get the
+        values at the start of the step, components that follow others get the values at its end. Raises NonFiniteError,
+        TerminationError.
         """
 
     @abstractmethod

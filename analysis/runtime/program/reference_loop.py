@@ -71,7 +71,7 @@ class ReferenceLoop:
             self.get(name)
 
     def due(self, names: Sequence[str], point: int) -> list[str]:
-        """Return those of the components whose step, over one or more communication steps, ends at ``point``."""
+        """Return the components with a step, of one or more communication steps, that ends at ``point``."""
         return [name for name in names if point % self.system.periods.get(name, 1) == 0]
 
     def step(self, name: str, point: int) -> None:
@@ -86,7 +86,7 @@ class ReferenceLoop:
 
 
 class Sequential(ReferenceLoop):
-    """Sequential algorithm: FMUs without direct feedthrough step ahead; the others follow the FMUs that they read."""
+    """Sequential algorithm: FMUs without direct feedthrough step ahead; other FMUs follow the FMUs that they read."""
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         super().__init__(system, components, signals)

@@ -137,7 +137,7 @@ class SystemArchive:
             raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
 
     def is_own_file(self, source: str) -> bool:
-        """Return True if a source is a file of the system, rather than one that `fmu` finds elsewhere."""
+        """Return True if a source is a file of the system, rather than a file that `fmu` finds elsewhere."""
         return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:

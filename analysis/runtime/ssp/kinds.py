@@ -1,6 +1,7 @@
 """Kinds of connectors, and the connections that are allowed between them: the table of SSP 2.0.
 
-It includes the table of SSP 1.0. The system is the one that contains the connection; elements are inside it.
+The table includes the table of SSP 1.0. System connectors belong to the system that contains the connection, element
+connectors to the elements inside it.
 """
 
 from __future__ import annotations

@@ -21,8 +21,8 @@ DURATION = 1.0  # s, if the FMU proposes no end; also the default of FMPy
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[SystemDescription, list[str]]:
     """Return the description of a system of one FMU, and remarks on defaults for values that the FMU does not propose.
 
-    Inputs, outputs and parameters are the component's connectors; start, end and step are those of the FMU's default
-    experiment. By default the start is 0, the end is 1 s later, and the step is the FMU's internal step or FMPy's
+    Inputs, outputs and parameters are the component's connectors; the FMU's default experiment determines start, end
+    and step. By default the start is 0, the end is 1 s later, and the step is the FMU's internal step or FMPy's
     `auto_interval` of the duration. Unless the end is requested, it is the last multiple of the step before the FMU's
     end. Raises InputError for a variant, since an FMU has no variants.
     """

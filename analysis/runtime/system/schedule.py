@@ -32,7 +32,7 @@ class Schedule:
 
 @dataclass
 class _Order:
-    """Order of components: first those without direct feedthrough, then the others, each after all that it reads.
+    """Order of components: first those without direct feedthrough, then the followers, each after all that it reads.
 
     ``late`` lists the connections against this order.
     """

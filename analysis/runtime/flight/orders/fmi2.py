@@ -25,8 +25,8 @@ PARAMETER_CALLS = (
 class Fmi2Orders:
     """Writer of the calls of one component.
 
-    ``ranges`` [get or set function 0..5] are the (first, count) of slots, and ``text_ranges`` those of String inputs
-    and outputs. ``parameter_ranges`` [type] contain the first parameter, and the numbers of parameters to set, to set
+    ``ranges`` [get or set function 0..5] and ``text_ranges`` (String inputs, String outputs) contain the (first, count)
+    of slots. ``parameter_ranges`` [type] contain the first parameter, and the numbers of parameters to set, to set
     again in initialisation mode, and to read back. Parameters are read back ``one_by_one`` if a single call cannot
     return all of them. ``recorded`` contains the ranges (function, first slot, count) that are read only to be
     recorded. ``tuned`` contains the ranges of parameters that change during simulation, with the first slot of their

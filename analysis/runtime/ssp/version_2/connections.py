@@ -17,8 +17,8 @@ SIDES = ("start", "end")
 def merge_connections(system: etree._Element, arrays: Arrays) -> None:
     """Replace connections of elements of ``arrays`` by connections of the arrays, in place.
 
-    A single connection is sufficient if all elements are connected with those of an array of the same shape, in order
-    and with equal attributes. Other connections refer to elements by index.
+    A single connection is sufficient if all elements of an array are connected with all elements of an array of the
+    same shape, in order and with equal attributes. Other connections refer to elements by index.
     """
     groups: dict[tuple[bytes, Shape, Shape], list[tuple[etree._Element, Shape, Shape]]] = {}
     for connection in children(child(system, "ssd:Connections"), "ssd:Connection"):
