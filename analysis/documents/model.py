@@ -125,7 +125,7 @@ class Repeat:
 class Table:
     """Rows of cells below ``heads``; a terminal and a notebook list the first ``listed`` rows.
 
-    ``is_grouped`` omits cells of the first column equal to the one above. ``style`` applies to a page: ``tight`` for
+    ``is_grouped`` omits cells of the first column equal to the cell above. ``style`` applies to a page: ``tight`` for
     many columns, ``replays`` for rows that stack on a narrow page. ``is_printed`` includes the table on paper.
     """
 

@@ -87,7 +87,7 @@ def _select(axis: Axis, ticks: Sequence[int]) -> Axis:
 def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
     """Return the largest selection of ticks whose labels do not overlap on an abscissa of this length (pt).
 
-    Fewer ticks are at rounder numbers.
+    Smaller selections contain rounder numbers.
     """
     chosen: Sequence[int] = range(len(axis.ticks))
     for ticks in _iterate_thinner_ticks(axis):

@@ -93,8 +93,8 @@ class _Lanes:
         """Insert strips for vertical lines at the sides of a row's columns.
 
         Strips of even and odd rows are offset by half a pitch, so lines of two rows do not cover each other. The line
-        closest to a block belongs to its lowest port if lines arrive from below, to its highest port if from above,
-        which avoids crossings.
+        closest to a block belongs to its lowest port if lines arrive from below, and to its highest port if they arrive
+        from above, which avoids crossings.
         """
         row = self.rows[number]
         ports, parity = row.ports(), PITCH / 2.0 * (number % 2)

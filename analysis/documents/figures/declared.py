@@ -15,7 +15,7 @@ from ..common.round_body import downrange
 
 @dataclass(frozen=True)
 class Signal:
-    """A Real or Integer scalar, or a vector of such, in the unit of a figure.
+    """A Real or Integer scalar, or a vector of Reals or Integers, in the unit of a figure.
 
     ``label`` is its name on pages, ``names`` are the recorded names of its elements. A recorded value x of element k is
     ``factor`` * x + ``offsets[k]`` in ``unit`` (None: without unit).

@@ -164,8 +164,9 @@ class Line:
 class Arrow:
     """The direction of a three-element ``signal``, of any unit and length, from the body or site ``start``.
 
-    Its components are along the axes of the body ``frame``, or of the scene (None). ``length`` is in m; None: `ARROW`
-    of the view's height at any distance. ``colour`` is a name of `HUES`; None: the next one.
+    Its components are along the axes of the body ``frame``, or of the scene (None). ``length`` is in m; an arrow
+    without length takes the fraction `ARROW` of the view's height at any distance. ``colour`` is a name of `HUES`; None
+    selects the next colour.
     """
 
     name: str

@@ -14,7 +14,7 @@ from .embedded_trials import trials_document, trials_notes
 
 
 def distribution_section(content: BatchContent) -> Section:
-    """Return the section of distributions of the metrics of success and requirements, with the trials of marks."""
+    """Return the section of distributions of the metrics of success and requirements, with data on marked trials."""
     batch = content.batch
     samples = {variant: sample.note for variant, sample in batch.plotted.items() if sample.note}
     nodes: list[Node] = [

@@ -134,13 +134,13 @@ HEIGHT = 2.3  # in, of a panel
 
 
 def metric_plot(batch: CampaignResult, metrics: list[Metric]) -> Plot:
-    """Return the empirical distributions over the plotted trials: a panel per metric, a line per variant."""
+    """Return a figure of empirical distributions over the plotted trials: a panel per metric, a line per variant."""
     styles = {name: look(index) for index, name in enumerate(batch.rows)}
     return distribution_plot({metric: metric_values(batch, metric.name) for metric in metrics}, styles)
 
 
 def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles: Mapping[str, Look]) -> Plot:
-    """Return a panel for each metric from its numbers by label; all metrics have the same labels in order."""
+    """Return a figure with a panel for each metric, from its numbers by label; all metrics have the same labels."""
     from ...chart.plot import plot_charts  # which imports matplotlib
 
     charts = [distribution_chart(metric, by_label, list(styles.values())) for metric, by_label in metrics.items()]

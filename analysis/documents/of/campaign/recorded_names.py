@@ -66,7 +66,7 @@ def axes_of(provenance: CampaignProvenance, vector: tuple[str, str, str]) -> Axi
 
 
 def is_real(provenance: CampaignProvenance, name: str) -> bool:
-    """Return True if a recorded signal is a Real; others are constant between samples."""
+    """Return True if a recorded signal is a Real; signals of other types are constant between samples."""
     return provenance["signals"].get(name, {}).get("type", "Real") == "Real"
 
 

@@ -35,7 +35,7 @@ class ComponentStatus(NamedTuple):
 def component_statuses(summary: Summary) -> list[ComponentStatus]:
     """Return counts by variant, signal and status.
 
-    Empty if no trial reported two statuses, since statuses of trials then suffice.
+    The result is empty if no trial reported two statuses, since statuses of trials then suffice.
     """
     if not any(len(worst_statuses(text)) > 1 for entry in summary.values() for text in entry.statuses):
         return []

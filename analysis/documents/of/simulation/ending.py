@@ -71,7 +71,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def note_lines(prepared: PreparedSystem) -> list[str]:
     """Return the notes of `perilune validate` on a system, a line for each kind of note.
 
-    For a system of this repository only assumptions are listed, because it may contain a foreign FMU.
+    For a system of this repository, which may contain a foreign FMU, only assumptions are listed.
     """
     is_ours = prepared.archive.path.is_relative_to(SYSTEMS.resolve())
     notes = prepared.assumptions if is_ours else prepared.network.notes

@@ -102,7 +102,7 @@ def _subsection(figure: FigureDeclaration, result: FlightResult, name: str, is_c
 
 
 def joint_findings(figures: Sequence[FigureDeclaration], result: FlightResult) -> list[Rich]:
-    """Return the time from which all bands with a common name hold."""
+    """Return, for each name that several bands share, a statement of the time from which all of them hold."""
     conditions: dict[str, list[np.ndarray]] = {}
     for band in figures:
         if isinstance(band, BandFigure) and result.time.size:
