@@ -20,9 +20,9 @@ WRITTEN = re.compile(  # 1...2 is rejected: the third dot could belong to either
 class Fault:
     """Fault that replaces (override), offsets (bias) or holds (freeze) a connector's value in [start, stop) s.
 
-    ``name`` is ``component.connector``: a fault on an output reaches all readers, a fault on an input only its
-    component. ``value`` is in the connector's unit and unused for a freeze. `parse_fault` reads the text of a fault.
-    Raises InputError for an unknown kind, a non-finite value or an empty window.
+    ``name`` is ``component.connector``: a fault on an output reaches all readers, and a fault on an input reaches only
+    its component. ``value`` is in the connector's unit and unused for a freeze. `parse_fault` reads the text of a
+    fault. Raises InputError for an unknown kind, a non-finite value or an empty window.
     """
 
     name: str

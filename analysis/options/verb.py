@@ -20,7 +20,7 @@ def verb(declared: Verb) -> Callable[[Function], Function]:
     """Return a decorator that gives a function a verb's signature, defaults, checks and docstring.
 
     The function accepts ``**options`` and receives all of them, with defaults for omitted ones. An unknown keyword
-    raises TypeError, a value out of bounds InputError.
+    raises TypeError, and a value out of bounds raises InputError.
     """
     options = options_of(declared.options)
 

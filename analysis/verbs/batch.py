@@ -36,7 +36,8 @@ if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
 class BatchResult(Documented, results.CampaignResult):
     """Result of a campaign: ``summary`` contains rates and statistics by variant, ``trials`` numbers by trial.
 
-    ``requirements`` are the expressions of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
+    ``requirements`` are the expressions of the option ``require``, and ``displayed`` are the metrics of the option
+    ``metrics``.
     """
 
     requirements: tuple[Expression, ...] = ()

@@ -20,7 +20,7 @@ FIRST_PAGE = BUILD / "site" / "index.html"
 
 @dataclass(frozen=True)
 class Documentation(Documented):
-    """The first ``page`` of the documentation, and whether a browser opened it."""
+    """The first ``page`` of the documentation, and True if a browser opened it."""
 
     page: Path
     is_opened: bool

@@ -1,4 +1,4 @@
-"""`perilune.export` and `perilune export`: builds an FMU, a system with its FMUs, or the blocks of a file."""
+"""`perilune.export` and `perilune export`: build of an FMU, of a system with its FMUs, or of the blocks of a file."""
 
 from __future__ import annotations
 

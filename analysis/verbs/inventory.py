@@ -92,8 +92,9 @@ class Inventory(Documented):
 def inventory(what: str | None = None) -> Inventory:
     """List what is available: `perilune list`.
 
-    Systems with their parameter sets, campaigns and loops; laws; searches; FMUs, including the FMUs of the working
-    folder. ``what`` is one of these kinds, or a text in names or descriptions. Raises InputError if nothing matches.
+    The result contains systems with their parameter sets, campaigns and loops, laws, searches, and FMUs, including the
+    FMUs of the working folder. ``what`` is one of these kinds, or a text in names or descriptions. Raises InputError if
+    nothing matches.
     """
     everything = Inventory(
         {name: _system(open_system(name)) for name in system_names()},

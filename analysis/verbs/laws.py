@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
 class Law(Documented, laws.NetworkOperator):
     """A law of a network operator: its matrix and parameters, shown as formula and graph, written as parameter set.
 
-    ``component`` is the component that the parameter set is for.
+    ``component`` is the component to which the parameter set applies.
     """
 
     component: str = "guidance"

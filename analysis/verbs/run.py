@@ -144,7 +144,7 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     `Fault` or their texts. ``input`` is the path of a CSV file, a structured array, or columns by name: ``time`` (s)
     and unconnected inputs. ``record`` names further variables to record; ``component.vector`` stands for all elements,
     and names of an FMU alone have no component. ``timeout`` (s, wall clock) ends the simulation at its next
-    communication point. ``require`` are expressions over the last values; see `Result.problems`.
+    communication point. ``require`` lists expressions over the last values; see `Result.problems`.
 
     Raises InputError, and TimeoutError if a step of an FMU does not return. A simulation that fails returns a result
     with its ``status``.

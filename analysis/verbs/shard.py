@@ -67,7 +67,7 @@ def prepare(
 
 @dataclass(frozen=True)
 class ShardResult(Documented):
-    """Numbers of shards: simulated now, complete before, and still missing, out of ``count``."""
+    """Numbers of shards simulated now, complete before and still missing, out of ``count``."""
 
     simulated: int
     complete_before: int

@@ -57,9 +57,7 @@ def marks(
     x: np.ndarray, y: np.ndarray, mark: Marker, *, name: str = "", unit: str | None = None, opacity: float = 1.0,
     beyond: bool = False,
 ) -> Curve:  # fmt: skip
-    """Return a curve of unconnected marks; ``y`` is in ``unit``, [rows]. With ``beyond`` they are not clipped at the
-    axes.
-    """
+    """Return a curve of unconnected marks; ``y`` is in ``unit``, [rows]. ``beyond`` permits marks outside the axes."""
     curve = quantity_curve(x, y, name, unit)
     colour = mark.edge or mark.fill
     return replace(curve, colour=colour, dashes=(), joined=False, marker=mark, opacity=opacity, beyond=beyond)

@@ -1,4 +1,4 @@
-"""Document of checked files: notes on each, and which are valid."""
+"""Document of checked files: notes on each file, and the valid files."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ WIDER = 1.05  # width of the clipping region over the picture's, so that clipped
 
 
 def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:
-    """Return the corners, [n, 3], of a convex polygon clipped to a picture of this aspect and tangent of half field."""
+    """Return the corners, [n, 3], of a convex polygon clipped to a picture with this aspect ratio and field of view."""
     for plane, offset in _planes(tangent, aspect):
         distance = corners @ plane - offset
         cut: list[np.ndarray] = []

@@ -69,5 +69,5 @@ def plume_length(body: Body) -> float:
 
 
 def largest_magnitude(values: np.ndarray) -> float:
-    """Return the largest magnitude of finite values, 0 without any."""
+    """Return the largest magnitude of finite values; 0 if no value is finite."""
     return float(np.max(np.abs(values), where=np.isfinite(values), initial=0.0))

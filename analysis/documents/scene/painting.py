@@ -49,7 +49,7 @@ def in_order(strokes: list[Stroke]) -> list[Stroke]:
 
 
 def _lies_behind(stroke: Stroke, other: Stroke) -> bool:
-    """Return True if a facet's plane separates the two, with ``other`` on the side of the eye."""
+    """Return True if a facet's plane separates both strokes, with ``other`` on the side of the eye."""
     if other.normal is not None and np.all(_heights(stroke, other) <= SAME * other.depth):
         return True
     return stroke.normal is not None and bool(np.all(_heights(other, stroke) >= -SAME * stroke.depth))

@@ -110,7 +110,7 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
 
 
 def disk_gain(alpha: float) -> float:
-    """Return the factor by which the gain may rise or fall within a disk margin with skew 0; inf from 2 on."""
+    """Return the factor by which the gain may rise or fall within a disk margin with skew 0 (inf from 2)."""
     return (1.0 + 0.5 * alpha) / (1.0 - 0.5 * alpha) if alpha < 2.0 else np.inf
 
 

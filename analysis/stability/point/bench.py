@@ -52,8 +52,8 @@ class Bench:
 
     ``period`` is the hyperperiod in communication points: the least common multiple of the sample periods of the
     channels and the FMUs. The operating point is at a multiple of it, and ``origin`` is the communication point before
-    the operating point. ``varied`` names parameters that `set` may change, ``recorded`` further variables to return
-    with the signals of the channels.
+    the operating point. ``varied`` names parameters that `set` may change, and ``recorded`` names further variables to
+    return with the signals of the channels.
     """
 
     def __init__(

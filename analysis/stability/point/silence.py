@@ -100,8 +100,8 @@ def _disturb(
 class _Path:
     """Components from a cut to its return signal.
 
-    ``first`` are the components that read the cut, ``readers`` the components that read each output, and ``outputs``
-    the outputs of all components on the path, by component.
+    ``first`` are the components that read the cut, ``readers`` are the components that read each output, and
+    ``outputs`` are the outputs of all components on the path, by component.
     """
 
     first: set[str]

@@ -1,4 +1,4 @@
-"""Report of a study: points, loops, joint channels, failed parts. Angles in rad, gains as factors."""
+"""Report of a study: points, loops, joint channels, failed parts. Angles are in rad; gains are factors."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ class MarginRequirement:
 
     @property
     def unstable(self) -> bool:
-        """True if it fails because the loop is unstable and has no margin."""
+        """True if the requirement fails because the loop is unstable and has no margin."""
         return self.value == UNSTABLE
 
     @property

@@ -29,7 +29,7 @@ ByPart = dict[str, list[Figure]]  # figures by section of a loop's article
 
 @dataclass(frozen=True)
 class FigureContent:
-    """Content of a figure for comparison: everything but points, and the points (pt)."""
+    """Content of a figure for comparison: its points (pt), and all other content."""
 
     strokes: Sequence[object]
     points: np.ndarray

@@ -19,8 +19,8 @@ from .words import crossing_text, limit, link, size
 def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:
     """Return the margin requirement with the least relative reserve; None if no margin has a limit.
 
-    Of equal ones the first is returned. Instability counts as less reserve than any margin, and instability of the loop
-    as less reserve than instability of its trials.
+    Of equal requirements the first is returned. Instability counts as less reserve than any margin, and instability of
+    the loop as less reserve than instability of its trials.
     """
     known = [each for each in report.judgements() if _is_margin(each.requirement) and each.requirement.scope in scopes]
     return min(known, key=lambda each: (_reserve(each.requirement), scopes.index(each.requirement.scope)), default=None)
@@ -48,7 +48,7 @@ def tightest_nodes(report: StabilityStudy) -> list[Text]:
 
 
 def dispersion_nodes(report: StabilityStudy) -> list[Text]:
-    """Return how the margins of the tightest loop vary over a campaign, or how to disperse them."""
+    """Return a statement on the dispersion of the tightest loop's margins, or on the way to disperse them."""
     nearest = tightest(report, (Scope.DISPERSED,))
     dispersed = [loop for loop in report.loops if loop.dispersion is not None]
     if not dispersed:

@@ -46,7 +46,7 @@ class ObjectiveValues(NamedTuple):
 
 
 def point_values(study: WorstOutcome) -> np.ndarray:
-    """Return the objective of every point of the search, (points,), larger is worse, without new noise.
+    """Return the objective of every point of the search, (points,), without new noise; larger is worse.
 
     Each point is simulated with all realisations of the noise in a row; after the random trials only once if noise does
     not matter.

@@ -125,7 +125,7 @@ def _crossovers(crossings: Classical) -> list[Rule]:
 
 
 def _within(axis: Axis, frequency: float) -> float:
-    """Return a frequency limited to the axis; a crossing is at 0 if L is real at its start."""
+    """Return a frequency limited to the range of the axis, since a crossing is at 0 if L is real at low frequency."""
     return min(max(frequency, axis.ends[0]), axis.ends[1])
 
 

@@ -72,7 +72,7 @@ def phase_mark(*, is_decisive: bool) -> Marker:
 
 
 def has_measurement(loop: LoopReport) -> FrequencyResponse | None:
-    """Return the measured response if there is also a linearisation, of which the curve is; else None."""
+    """Return the measured response if the loop's curve is from a linearisation; else None."""
     if loop.linearised is None or loop.measured_response is None:
         return None
     return loop.measured_response.curve
@@ -144,7 +144,7 @@ def faint_line(x: np.ndarray, y: np.ndarray) -> charts.Curve:
 
 @dataclass(frozen=True)
 class LimitLines:
-    """The limits that figures show, as required of the loop; None: not required."""
+    """The limits that figures of a loop show; None for a margin that is not required."""
 
     gain: float | None  # dB
     phase: float | None  # deg

@@ -170,7 +170,7 @@ def _zone(limits: LimitLines) -> tuple[list[Area], list[ChartNote]]:
 
 
 def _margins(crossings: Classical) -> list[Curve]:
-    """Return marks at all crossings, the decisive ones with a bar to the critical point."""
+    """Return marks at all crossings, and bars from decisive crossings to the critical point."""
     gain, phase = crossings.gain_margin, crossings.phase_margin
     curves = []
     if gain is not None:
