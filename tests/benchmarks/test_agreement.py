@@ -1,4 +1,4 @@
-"""Detection of simulations on another machine, without false alarms. Truth: hand-written values."""
+"""Agreement of the benchmark's contestants, and time per step. Truth: hand-written values."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Tunable parameters set between steps, in all forms of a block.
 
 Truth: the saved state of the same moment with the parameter's number replaced in its bytes, restored and simulated
-further: equal bit for bit. `make long` tests every tunable parameter of every block, `make test` those of some blocks.
+further: equal bit for bit. `make long` tests every tunable parameter of every block, `make test` the tunable parameters
+of some blocks.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.metric_limits
+"""perilune.analysis.campaigns.metric_limits: limits on metrics from expressions, and the worst trial.
 
 Truth: the expressions themselves, evaluated at numbers within the limits and beyond them; rows sorted by hand.
 """

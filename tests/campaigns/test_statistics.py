@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.statistics.
+"""perilune.analysis.campaigns.statistics: statistics and quantiles of finite columns.
 
 Truth: Python's statistics module, scipy's distribution function and numpy's quantile over the same finite columns; a
 quantile's definition, counted trial by trial in integers.

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.summary"""
+"""perilune.analysis.campaigns.summary: rates, metrics, requirements and groups. Truth: trials counted by hand."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""perilune.common.errors"""
+"""perilune.common.errors: messages of one line, suggestions of names, warnings. Truth: the texts, written here."""
 
 import pickle
 import warnings

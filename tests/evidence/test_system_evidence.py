@@ -1,6 +1,6 @@
 """Evidence of a system: its simulation, campaigns, parameter sets, reports; and `perilune verify` of it.
 
-Truth: files changed by the test; a run and a batch of the same system by their own verbs.
+Truth: files changed by the test; a run and a batch of the same system by their verbs.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Thrust allocation against closed forms of its throttle, lag and slew limit.
+"""Thrust allocation, compared with closed forms of its throttle, lag and slew limit.
 
 Truth: mass times acceleration, the exact response of a first-order lag to a staircase (a sum of exponentials), scipy
 rotations for the slew-limited direction, a chi-square interval (99.9 %) for the random thrust error. Tolerance 1e-11

@@ -1,10 +1,10 @@
-"""The forming filter against the theory of linear systems driven by white noise.
+"""Forming filter, compared with the theory of linear systems driven by white noise.
 
-Truth: the matrix exponential by `scipy.linalg.expm` and the noise covariance by van Loan's method
-(tolerance 1e-13 of the stationary covariance; 1e-4 of its own size at w h = 1e-3, where the block's
-difference loses digits), the stationary covariance by `scipy.linalg.solve_continuous_lyapunov`, and the
-spectral density |H(f)|^2, aliases summed, against `scipy.signal.welch`. The random numbers of a step are
-worked out in exact integers. Statistics at fixed seeds within 99.9 % intervals.
+Truth: the matrix exponential by `scipy.linalg.expm` and the noise covariance by van Loan's method (tolerance 1e-13 of
+the stationary covariance; 1e-4 relative at w h = 1e-3, where a difference in the block loses digits), the stationary
+covariance by `scipy.linalg.solve_continuous_lyapunov`, and the spectral density |H(f)|^2, with aliases, by
+`scipy.signal.welch`. The random numbers of a step are computed in exact integers. Statistics at fixed seeds are within
+99.9 % intervals.
 """
 
 import math

@@ -1,10 +1,10 @@
 """Kalman navigation compared with chi-square theory, batch least squares, the Riccati equation and a known trajectory.
 
-Truth: a braking flight in closed form with sensor errors by numpy (braking_flight.py). Over 200 fixed seeds the
-sums of squared normalised estimation errors (6 degrees of freedom) and innovations (1 or 3) lie inside the two-sided
-95 % chi-square interval at five named epochs. The covariance is that of least squares over all samples at
-once (1e-5) and settles on the solution of the Riccati equation (1e-9). With perfect sensors the estimate
-stays within 1 mm and 1e-5 m/s of the trajectory.
+Truth: a braking flight in closed form with sensor errors by numpy (braking_flight.py). Over 200 fixed seeds the sums of
+squared normalised estimation errors (6 degrees of freedom) and innovations (1 or 3) lie inside the two-sided 95 %
+chi-square interval at five named epochs. The covariance equals the least-squares covariance over all samples at once
+(1e-5) and settles on the solution of the Riccati equation (1e-9). With perfect sensors the estimate stays within 1 mm
+and 1e-5 m/s of the trajectory.
 """
 
 import math

@@ -1,6 +1,6 @@
 """Tables of numbers by trial that metrics look up: [lookup].
 
-Truth: SHA-256 by hashlib of the inputs that a batch without the lookup stores; the tables' own numbers.
+Truth: SHA-256 by hashlib of the inputs stored by a batch without the lookup; the numbers of the tables.
 """
 
 import hashlib

@@ -1,6 +1,6 @@
 """perilune.common.machine.arrow: columns between numpy and Arrow.
 
-Truth: pyarrow's own conversions, which load pandas.
+Truth: pyarrow's conversions, which load pandas.
 """
 
 import numpy as np

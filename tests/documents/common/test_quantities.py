@@ -1,4 +1,4 @@
-"""perilune.analysis.documents.common.quantities"""
+"""perilune.analysis.documents.common.quantities: units, numbers and ticks as text. Truth: the texts, written here."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""perilune.analysis.documents.common.round_body against spherical trigonometry.
+"""perilune.analysis.documents.common.round_body, compared with spherical trigonometry.
 
 Truth: orbits with known angles along and across a great circle, rotated about the body's centre.
 """

@@ -1,4 +1,4 @@
-"""perilune.analysis.documents.common.signals"""
+"""perilune.analysis.documents.common.signals: groups, vectors and paths among signals. Truth: signals listed here."""
 
 from perilune.analysis.documents.common.signals import distinct, position_groups, signal_groups
 from tests.support.pages.samples import run_result

@@ -1,6 +1,6 @@
 """Widths of text in DejaVu Sans.
 
-Truth: Pillow's own layout of the same font, without kerning.
+Truth: Pillow's layout of the same font, without kerning.
 """
 
 import json

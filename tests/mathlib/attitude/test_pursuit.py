@@ -1,8 +1,8 @@
 """`perilune.fmus_src.mathlib.attitude.pursuit`: a direction that follows a moving goal.
 
 Truth: closed forms for a goal at rest (a straight line down to the knee angle limit * response, an exponential after
-it) and for a goal that rotates steadily (angle response * rate); scipy's DOP853 at 1e-12 for moving goals, its own law
-written with cross products. The order of convergence is measured.
+it) and for a goal that rotates steadily (angle response * rate); scipy's DOP853 at 1e-12 for moving goals, with the law
+written as cross products. The order of convergence is measured.
 """
 
 import itertools

@@ -1,4 +1,4 @@
-"""Descriptions and parameter sets of SSP 2.0, written in short form like those of `builders`."""
+"""Descriptions and parameter sets of SSP 2.0, in short form as in `builders`."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Campaigns in folders: their files, the processes that simulate them, long ones."""
+"""Campaigns in folders: files, processes that simulate them, campaigns with many trials."""

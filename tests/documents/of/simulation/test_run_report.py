@@ -1,4 +1,4 @@
-"""perilune.analysis.documents.of.simulation.run"""
+"""Page of a run: header, faults, numbers, parameters, figures, short and failed runs. Truth: a hand-written run."""
 
 import numpy as np
 import pytest
