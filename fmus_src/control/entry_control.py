@@ -19,8 +19,8 @@ class EntryControlStatus(Enumeration):
 class EntryControl(Block, interface=True):
     """Torque that holds a capsule at trim and at the programmed bank angle, from bank and rates alone.
 
-    Angle of attack, sideslip, speed and pressure are not measured; dynamic_pressure serves gain scheduling. At trim
-    with trim_attack α_0 the capsule rotates about its velocity at
+    Angle of attack, sideslip, speed and pressure are not measured; dynamic_pressure serves gain scheduling. At trim,
+    with trim_attack α_0 and bank rate γ', the capsule rotates about its velocity at
 
         ω = γ' (cos α_0, -sin α_0, 0)
 

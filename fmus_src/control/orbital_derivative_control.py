@@ -34,8 +34,8 @@ class OrbitalDerivativeControl(OrbitalControl):
         u = J G_w ω'
 
     With two unstable modes this condition requires the coupling. If it is not met, the status reports unusable
-    parameters. ω' contains no torques that are too short for a pulse: the law is for wheels, or pulses.mean. It is
-    linear in yaw.
+    parameters. Torques too small for a pulse do not appear in ω', so the law is for wheels, or for pulses with
+    pulses.mean set. It is linear in yaw.
 
     Assumes a nonsingular A.
 

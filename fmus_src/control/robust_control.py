@@ -9,18 +9,19 @@ from .entry_control import EntryControl
 class RobustControl(EntryControl):
     """Roll about the velocity at constant angle of attack and sideslip, with gains independent of pressure and speed.
 
-    With sine s_0 and cosine c_0 of trim_attack, bank error e, and rates g about and b across the velocity:
+    With sine s_0 and cosine c_0 of trim_attack, bank error e, reference bank γ_r, and rates g about and b across the
+    velocity:
 
         g = ω_x c_0 - ω_y s_0    b = ω_x s_0 + ω_y c_0
         x_1 = γ_r'' - k_x (g - γ_r') - k_g e    x_2 = -k_b b
         u = J (c_0 x_1 + s_0 x_2, -s_0 x_1 + c_0 x_2, -k_z ω_z)
 
     x_1 is limited to largest_acceleration. At frozen pressure, with natural frequencies w_b and w_a of sideslip and
-    angle of attack, the closed loop is stable for any pressure:
+    angle of attack, the closed loop is stable for any pressure, with the characteristic polynomial
 
         (p^2 + k_x p + k_g) (p^2 + k_b p + w_b^2) (p^2 + k_z p + w_a^2)
 
-    With the time-optimal bank programme it is the combined algorithm of the thesis.
+    With the time-optimal bank programme this law is the combined algorithm of the thesis.
 
     Source: Lapin, thesis, chapter 3.2; gains: this repository.
     """

@@ -34,11 +34,11 @@ class HoverGuidance(HoverPlan):
         q = lim((f - (f · d) d)/max(A + f · d, 1), tan(largest_tilt))
         thrust_acceleration = max(A + f · d, 0.02) |d + q|/thrust_factor    direction = (d + q)/|d + q|
 
-    Accelerations are in m/s2. q passes a first-order low-pass of tilt_filter. A is the mean of the plan over a sample
-    period that begins engine_lag later. The frequency ω is coasting_frequency in a programme, braking_frequency from 1
-    s before its last burn on, and holding_frequency in holds and polynomials. thrust_factor is estimated from measured
-    and commanded thrust. thrust_direction_rate is the rate of the plan's direction d alone; including the rate of q
-    would cause limit cycles.
+    Accelerations are in m/s2. q passes a first-order low-pass filter with the time constant tilt_filter. A is the mean
+    of the plan over a sample period that begins engine_lag later. The frequency ω is coasting_frequency in a programme,
+    braking_frequency from 1 s before its last burn on, and holding_frequency in holds and polynomials. thrust_factor is
+    estimated from measured and commanded thrust. thrust_direction_rate is the rate of the plan's direction d alone;
+    including the rate of q would cause limit cycles.
 
     Source: Huang 2017 (programme); control law: this repository. See docs/systems/hover_transfer.md.
     """

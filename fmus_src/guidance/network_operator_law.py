@@ -33,8 +33,8 @@ PUBLISHED_MATRIX = (
 class NetworkOperatorLaw(Block, interface=True):
     """Thrust and thrust angle from path angle and altitude, by a network operator of 16 nodes.
 
-    With the angle θ of the velocity from the local vertical, altitude h, final altitude h_f and reference altitude h_0
-    the sources are
+    With the angle θ of the velocity from the local vertical, altitude h, final altitude h_f, reference altitude h_0 and
+    parameters q_1 to q_3 the sources are
 
         z_1 = π + θ    z_2 = q_1    z_3 = (h_f - h)/h_0    z_4 = q_2    z_5 = θ    z_6 = q_3
 

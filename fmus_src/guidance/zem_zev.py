@@ -14,5 +14,5 @@ class ZemZevGuidance(PolynomialGuidance):
     Assumes constant gravity unless gravity_correction is set.
 
     Source: Cherry 1964 (E-guidance); Ebrahimi, Bahrami and Roshanian 2008; Guo, Hawkins and Wie 2011; time of least
-    propellant within the thrust: this repository.
+    propellant within the thrust limit: this repository.
     """

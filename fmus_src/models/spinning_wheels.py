@@ -12,7 +12,7 @@ ROUNDING = 1e-9  # relative excess of a command over its limit that is not repor
 class SpinningWheels(Block, interface=True):
     """Four equal balanced reaction wheels with motors and friction.
 
-    With wheel speed Ω, commanded torque u_c and torque factor k:
+    With wheel speed Ω, commanded torque u_c, its limit u_max, torque factor k and viscous friction coefficient c:
 
         u = k clip(u_c, u_max) - c Ω - μ sgn Ω
 

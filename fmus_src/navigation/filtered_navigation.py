@@ -30,8 +30,8 @@ class FilterStatus(Enumeration):
 class FilteredNavigation(InertialNavigation, interface=True):
     """Inertial navigation corrected by an extended Kalman filter from altitude, velocity and position.
 
-    Fifteen states: errors of position and velocity, and the inertial sensor's bias b, scale factors k and misalignment
-    w, which are subtracted from the measured specific force f. Their errors propagate as
+    The fifteen states are the errors of position and velocity, and the inertial sensor's bias b, scale factors k and
+    misalignment w. The estimated sensor errors are subtracted from the measured specific force f. Errors propagate as
 
         a = b + diag(k) f + w × f    δr^+ = δr + h δv - (h^2/2) a    δv^+ = δv - h a
 

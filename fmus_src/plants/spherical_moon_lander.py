@@ -16,9 +16,9 @@ class SphericalMoonLander(MoonLander):
 
         |ω| = min(angle/direction_response, slew_rate_limit)
 
-    If direction_response and slew_rate_limit are both 0, it equals the command. Thrust, mass and motion are computed as
-    in `moon_lander`; in a step in which the attitude leaves its rate limit, the order of the method is three. The
-    motion is frozen when the altitude is 0 or less at the end of an internal step.
+    If direction_response and slew_rate_limit are both 0, the attitude equals the command. Thrust, mass and motion are
+    computed as in `moon_lander`; in a step in which the attitude leaves its rate limit, the order of the method is
+    three. The motion is frozen when the altitude is 0 or less at the end of an internal step.
 
     Steps are internal_step or equal parts of it no longer than the lag and the response (at least 1/100; a shorter
     response is ignored), and end where thrust ends. If the communication step is a multiple of internal_step, it

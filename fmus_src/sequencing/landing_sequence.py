@@ -46,7 +46,7 @@ class LandingSequence(LandingInputs, interface=True):
 
     Phases only advance. No output depends directly on an input. `status_flags` contains all statuses so far, each of
     which is stored with its first time; `status` is the largest of them. A new `plan_number` requests a plan from the
-    hover guidance, which is ignored until it returns this number.
+    hover guidance; outputs of the hover guidance are ignored until it returns this number.
 
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
