@@ -25,12 +25,12 @@ def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
 
 
 def lost_words(counts: Mapping[str, int]) -> str:
-    """Return such counts as text, such as "2 crashed, 1 out of memory"; "" if there are none."""
+    """Return the counts of lost trials as text, such as "2 crashed, 1 out of memory"; "" if there are none."""
     return ", ".join(f"{counts[status]} {status.replace('_', ' ')}" for status in LOST if counts.get(status))
 
 
 def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
-    """Return a line for each variant with such trials, from the counts of the variant's statuses."""
+    """Return a line for each variant with lost trials, from the counts of the variant's statuses."""
     words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
     return [
         f"{variant}: {text} of {sum(statuses[variant].values())} trials, counted as failures"

@@ -46,9 +46,9 @@ def store_options(options: SystemOptions) -> dict[str, Any]:
 
 
 def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fmu: bool) -> SystemOptions:
-    """Return the options in the manifest ``file``, with their types checked; ``of_fmu`` for a stand-alone FMU.
+    """Return the options in the manifest ``file``, with their types checked. Raises InputError with the ``remedy``.
 
-    Raises InputError with the ``remedy``.
+    Set ``of_fmu`` for the options of a stand-alone FMU.
     """
     unknown = sorted(set(stored) - {*STORED})
     if unknown:

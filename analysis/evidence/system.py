@@ -40,7 +40,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """Return the requested studies; `ALL` stands for all of the system's. Raises InputError for an unknown study."""
+    """Return the requested studies, or all of the system for `ALL`. Raises InputError for an unknown study."""
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):

@@ -120,7 +120,7 @@ class CampaignComparison:
 
     @cached_property
     def summary(self) -> Summary:
-        """Summary of each contender, as of a variant in a batch, with ``rates`` by name, also for each group."""
+        """Summary of each contender and its groups, as of a variant in a batch, with ``rates`` by name."""
         grouping = self._grouping
         by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
@@ -173,7 +173,7 @@ class CampaignComparison:
         return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
     def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
-        """Return the comparison of a metric between two contenders, over all trials or those successful for both."""
+        """Return the comparison of a metric of two contenders over all trials, or over trials successful for both."""
         a, b = (self.values(label, metric) for label in pair)
         if successful:
             both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)

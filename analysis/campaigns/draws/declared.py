@@ -99,7 +99,7 @@ class Draw:
     """Dispersed input: the names of the values that it draws, and their distribution.
 
     ``names`` contains only the draw's name, except for correlated_normal, which draws several values. A value with a
-    dot in its name is a component's parameter; others are only for [derive] and the metrics.
+    dot in its name is a component's parameter; other values are only for [derive] and the metrics.
     """
 
     name: str
@@ -120,7 +120,7 @@ class Formula(Protocol):
 
 
 class Numbers(Protocol):
-    """Numbers by trial, with a name, that are not drawn."""
+    """Named numbers for each trial that are not drawn."""
 
     @property
     def name(self) -> str: ...

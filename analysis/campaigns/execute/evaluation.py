@@ -131,7 +131,7 @@ WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
 
 
 def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
-    """Return the status of each simulation, with the worst status of every component other than 0.
+    """Return the status of each simulation, with the worst nonzero status of every component.
 
     Examples are ``finished`` and ``finished (guidance.status 2)``.
     """

@@ -133,7 +133,7 @@ def trace_files(folder: Path, variant: str) -> dict[int, Path]:
 
 
 def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-    """Return the recorded signals of a trial with ``time`` (s): the existing ones of ``names``, by default all.
+    """Return the recorded signals of a trial with ``time`` (s): the signals in ``names`` that exist, by default all.
 
     Raises InputError.
     """
@@ -193,7 +193,7 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
 
 
 def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
-    """Return a Parquet file with verified checksums: all of it, the existing ones of ``columns``, or one row group.
+    """Return a Parquet file with verified checksums: all of it, the ``columns`` that exist, or one row group.
 
     Raises InputError.
     """

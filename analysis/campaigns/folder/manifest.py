@@ -42,7 +42,7 @@ class TableDocument(TypedDict):
 
 
 class SystemDocument(TypedDict):
-    """System; ``files`` maps archive names to contents, and ``fmu`` is the name of a stand-alone FMU."""
+    """System of a campaign; ``files`` maps archive names to contents, ``fmu`` is the name of a stand-alone FMU."""
 
     name: str
     label: str

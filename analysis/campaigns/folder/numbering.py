@@ -15,7 +15,7 @@ LONGEST = 40  # most characters of a number or a span
 
 @dataclass(frozen=True)
 class Numbering:
-    """Shards of a campaign: ``trials`` in shards of ``size`` trials, the last one with the remainder."""
+    """Division of a campaign's ``trials`` into shards of ``size`` trials; the last shard contains the remainder."""
 
     trials: int
     size: int

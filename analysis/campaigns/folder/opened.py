@@ -48,7 +48,7 @@ class OpenedResults:
 
     @property
     def flown(self) -> int:
-        """Number of stored trials of each variant, which is less than all while the campaign is running."""
+        """Number of stored trials of each variant, which is below `trials` while the campaign is running."""
         return self.source.flown
 
     @cached_property

@@ -30,7 +30,7 @@ class MetricMetadata(TypedDict):
 
 
 class RecordMetadata(TypedDict):
-    """Recording of trials over time."""
+    """Recording of trials over time: signals in every ``every``-th row of the first ``trials`` trials, and traces."""
 
     every: int | None
     signals: list[str]

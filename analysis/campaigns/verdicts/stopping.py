@@ -86,7 +86,7 @@ class StoppingRule:
         return self._decision(AcceptanceVerdict.UNDECIDED, last, failures)
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """Return the last look in ``flights``, and the failures that it permits, or -1 if it permits none."""
+        """Return the last look in ``flights``, and the failures that it permits, or -1 if there are too few flights."""
         last = max(self.looks(flights), default=0)
         return last, self.acceptance_number(last) if last else -1
 
@@ -126,7 +126,7 @@ class StoppingRule:
 
 
 def _round_look(flights: int) -> int:
-    """Return the largest number 1, 2 or 5 times a power of ten that is at most a sixteenth of ``flights``, or 1."""
+    """Return the largest of 1, 2, 5, 10, 20, 50 ... that is at most a sixteenth of ``flights``, at least 1."""
     sizes = [digit * 10**power for power in range(len(str(flights))) for digit in (1, 2, 5)]
     return max((size for size in sizes if size * FIRST_LOOKS <= flights), default=1)
 

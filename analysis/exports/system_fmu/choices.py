@@ -144,7 +144,7 @@ def _no_start(network: Network, name: str) -> float | bool | str:
 
 
 def _start_reached(network: Network, name: str) -> float | None:
-    """Return the value of a connector that gives the first component input it drives that input's start value.
+    """Return the value of a connector at which the first component input that it drives has its start value.
 
     None is returned if the connector drives no component input through a linear conversion.
     """

@@ -62,8 +62,8 @@ class PassedParameter:
     """A parameter of a component that gets its value from a system parameter.
 
     ``path`` is the path of the component's parameter in the system's struct. ``chain`` contains the connectors in the
-    ``network`` from the system parameter to the component's. ``tunable`` is True if the parameter may be set between
-    steps.
+    ``network`` from the system parameter to the component's parameter. ``tunable`` is True if the parameter may be set
+    between steps.
     """
 
     path: str

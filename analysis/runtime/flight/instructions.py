@@ -21,10 +21,10 @@ Orders = Fmi2Orders | Fmi3Orders
 class InstructionList(InstructionRows):
     """Writer of a system's instructions.
 
-    ``orders`` write the calls of each component. ``connections`` [component] lists the terms of the connections to a
-    component, in order; its last entry is for system connectors. Connections and ``fault_slots`` are numbered as in the
-    program's arrays. ``drives`` [component] is (first, count) of the inputs driven over time; its last entry is for
-    system connectors. ``texts`` and ``binaries`` contain the positions of Strings and Binaries.
+    ``orders`` contains the writer of the calls of each component. ``connections`` [component] lists the terms of the
+    connections to a component, in order. Connections and ``fault_slots`` are numbered as in the program's arrays.
+    ``drives`` [component] is the (first, count) of the inputs driven over time. The last entries of ``connections`` and
+    ``drives`` are for system connectors. ``texts`` and ``binaries`` contain the positions of Strings and Binaries.
     """
 
     def __init__(

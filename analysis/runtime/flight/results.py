@@ -49,7 +49,7 @@ ENDINGS = {
 
 
 def require_pandas() -> None:
-    """Raise ImportError, with the command that installs it, if pandas is missing."""
+    """Raise ImportError if pandas is missing; its message contains the command that installs pandas."""
     if find_spec("pandas") is None:
         raise ImportError("to_pandas needs pandas, which is not installed; pip install 'perilune[notebook]'")
 

@@ -50,7 +50,7 @@ class Selection:
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> SystemSettings:
-        """Return the system's settings, with all varied parameters and all that change during simulation.
+        """Return the system's settings, extended by varied parameters and by parameters that change during simulation.
 
         Added parameters have their start values.
         """

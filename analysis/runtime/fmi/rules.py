@@ -1,4 +1,4 @@
-"""Rules of FMI on a model description that its schema does not contain."""
+"""Rules of FMI for model descriptions that the schema cannot express."""
 
 from __future__ import annotations
 

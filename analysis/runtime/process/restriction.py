@@ -55,8 +55,7 @@ class ProcessLimits:
 def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
     """Return the limits of a child with these FMUs; only a child with a foreign FMU is restricted.
 
-    If the operating system does not support all restrictions, a warning is issued, or InputError raised if the options
-    are strict.
+    If the operating system does not support all restrictions, warns or, if the options are strict, raises InputError.
     """
     memory = round(options.limits["memory"] * GB)
     if all(fmu.is_own for fmu in fmus):
@@ -91,7 +90,7 @@ def find_missing() -> tuple[str, ...]:
 def restrict(restriction: Restriction) -> None:
     """Restrict this process and all processes that it starts, irrevocably. Raises OSError.
 
-    Restrictions in `find_missing` are omitted.
+    Restrictions that `find_missing` lists are omitted.
     """
     if sys.platform != "linux":
         return

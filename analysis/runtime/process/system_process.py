@@ -118,7 +118,7 @@ class SystemProcess:
         self.connection.send(messages.StoreVerdicts(dict(verdicts)))
 
     def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
-        """Send the next scenario; return the number of its recorder, which follows the number ``after``.
+        """Send the next scenario; return the number of its recorder, the next one after number ``after``.
 
         Values and faults are sent only if they differ from those sent before.
         """

@@ -40,7 +40,7 @@ class AnnotationReader:
         return by_name
 
     def attributes(self, element: etree._Element, needed: Collection[str], more: Collection[str] = ()) -> dict:
-        """Return the attributes of an element; reject missing and unknown ones."""
+        """Return the attributes of an element; reject missing and unknown attributes."""
         for name in needed:
             if not element.get(name, "").strip():
                 raise self.refuse(element, f"no {name}", f'write {name}="..."')

@@ -1,4 +1,4 @@
-"""Files of a system, which are only read: an .ssp archive or a folder."""
+"""Files of a system, opened for reading only: an .ssp archive or a folder."""
 
 from __future__ import annotations
 

@@ -25,5 +25,5 @@ ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
 
 
 def can_connect(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
-    """Return True if values can flow between connectors of these kinds, each of the system or of an element."""
+    """Return True if values can flow between connectors of these kinds, each in the system or in an element of it."""
     return target in ALLOWED.get((is_system, kind), {}).get(is_target_system, ())

@@ -36,10 +36,11 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> SystemSettings:
-    """Return all values of a system: its bindings from the inside out, then ``assignments``; later ones override.
+    """Return all values of a system: the values of its bindings from the inside out, then ``assignments``.
 
-    Raises InputError for a name that matches nothing (unless allowed), for a value that does not fit its variable, and
-    for declared inputs without connection and value (unless they keep their start values).
+    Later values override earlier ones. Raises InputError for a name without target (unless allowed), for a value that
+    does not fit its variable, and for declared inputs without connection and value (unless they keep their start
+    values).
     """
     settings, allow_unmatched = SystemSettings(), options.chosen["allow_unmatched"]
     notes = network.notes if allow_unmatched else None

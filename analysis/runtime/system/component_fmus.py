@@ -105,7 +105,7 @@ class ComponentFmus:
 
     @cached_property
     def assignments(self) -> list[Assignment]:
-        """Parameter values of files and options; later ones override earlier ones."""
+        """Parameter values of files and options; later values override earlier values."""
         options, assignments = self.options, list[Assignment]()
         for name in options.parameters:
             data, label = self.archive.parameter_set(name)
@@ -119,14 +119,14 @@ class ComponentFmus:
         ]
 
     def refuse_unfit(self, error: InputError) -> None:
-        """Replace an error in the connections of a component by a clearer one if an option names its FMU."""
+        """Replace an error in the connections of a component by a clearer error if an option names its FMU."""
         slot = next((slot for slot in self._used if error.element.startswith(f"{slot}.")), None)
         if slot is not None and error.file == self.description.file:
             raise unfit(slot, self.options.use[slot], self._used[slot], error) from error
 
 
 def _is_missing(name: str, flavour: str | None, system: Path | None) -> bool:
-    """Return True if no FMU is built under a name; False for paths."""
+    """Return True if no FMU is built under a name; always False for paths."""
     return Path(name).name == name and not names_fmu(name) and find_fmu(name, _flavours(flavour), system) is None
 
 

@@ -138,7 +138,7 @@ class Fmu:
 
 
 def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
-    """Check and unpack an FMU; if ``strict``, reject one with flaws. Raises InputError with file and element."""
+    """Check and unpack an FMU; if ``strict``, reject an FMU with flaws. Raises InputError with file and element."""
     archive = open_zip(data, label)
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")

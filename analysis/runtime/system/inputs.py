@@ -71,7 +71,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
 
 
 def _drop_partial_arrays(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
-    """Return the open inputs without inputs in arrays of which another element is connected or has a value.
+    """Return the open inputs except elements of arrays in which another element is connected or has a value.
 
     SSP 2.0 cannot declare single elements of an array: these inputs keep the FMU's start values, which is noted.
     """

@@ -102,7 +102,7 @@ class PreparedSystem:
 
     @property
     def flies_in_threads(self) -> bool:
-        """True if threads of a process can simulate it in parallel, and gain time by it."""
+        """True if several threads of a process can simulate it in parallel, which then saves time."""
         return self.is_native and not self.is_alone
 
 

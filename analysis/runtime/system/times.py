@@ -94,7 +94,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
 
 
 def _read_step(network: Network) -> float | None:
-    """Return the step (s) of the description, or the shortest step if inner systems have their own."""
+    """Return the shortest step (s) of the description and inner systems; None if the description states no step."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])
 

@@ -21,11 +21,11 @@ LARGEST = "1 TB"  # size above which dask warns of a large message; it need not,
 
 @contextmanager
 def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
-    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None if it is None.
+    """Yield an executor for the workers of the dask scheduler at ``address``, or None if no address is passed.
 
-    ``workers`` and ``engine`` configure this machine, and are rejected with an address. Raises InputError if
-    distributed is not installed, if the scheduler does not answer or has no workers, or if a worker has another version
-    of Perilune.
+    An address has the form tcp://host:8786. ``workers`` and ``engine`` configure this machine, and are rejected with an
+    address. Raises InputError if distributed is not installed, if the scheduler does not answer or has no workers, or
+    if a worker has another version of Perilune.
     """
     if address is None:
         yield None
