@@ -19,7 +19,7 @@ if TYPE_CHECKING:  # figures double the start-up time of verbs without figures
 
 @dataclass(frozen=True)
 class Figure:
-    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` are the text for screen readers.
+    """A chart of ``height`` (in); ``name`` is unique in its document, and ``words`` are the text for screen readers.
 
     ``is_wide`` fills the width of the page; ``is_narrow`` puts three instead of two in a row. ``below`` is a second
     chart over the same abscissa. ``look`` is the look of the object that the label names. ``legend`` is for this figure

@@ -65,7 +65,7 @@ class Kind(Enum):
     INTEGER = "integer"
     TEXT = "text"
     PATH = "path"
-    LIST = "list"  # of texts or numbers
+    LIST = "list"  # list of texts or numbers
     PAIRS = "pairs"  # NAME=VALUE
 
 

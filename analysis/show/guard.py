@@ -16,7 +16,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 METHODS = ("GET", "HEAD")
 LONGEST_PATH = 100  # characters; longer numbers are not valid
-HEADERS = {  # of every answer
+HEADERS = {  # headers of every answer
     "cache-control": "no-store",
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",

@@ -55,7 +55,7 @@ SHADES = {
     "replay": Shade("#ddd", "#444"),
     "good": Shade("#eef5fa", "#14293a"),  # background of a status
     "bad": Shade("#fdf1e9", "#3a2415"),
-    "pass": Shade("#00694d", "#4cc38a"),  # of verdicts
+    "pass": Shade("#00694d", "#4cc38a"),  # colours of verdicts
     "fail": Shade("#a84300", "#ff9a5a"),
     "withheld": Shade("#7a5c00", "#e0b94a"),
     "faint": Shade("#6b6b6b", "#a8a8a8"),  # axes

@@ -14,7 +14,7 @@ from markupsafe import Markup
 from ..interactive.charts import Drawing, Marker
 from .colours import Look
 
-PANEL_WIDTH = 3.24  # in of 99 px; three in the page's column
+PANEL_WIDTH = 3.24  # in (99 px each); three panels fill the page's column
 PANEL_HEIGHT = 2.5  # in
 HALF_WIDTH = 4.95  # in; two in the page's column
 SWATCH = 6.0  # px, the size of a mark in a legend

@@ -29,7 +29,7 @@ class _System:
         self.system = system
         self.is_whole = is_whole
         self.notes = _notes(system)
-        self.nodes: dict[int, dict[str, Any]] = {}  # by the identity of the box
+        self.nodes: dict[int, dict[str, Any]] = {}  # nodes by identity of their box
         self.ids: dict[PortKey, str] = {}
 
     def placement(self) -> Arrangement:

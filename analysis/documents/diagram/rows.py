@@ -41,7 +41,7 @@ def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]])
     count = len(columns)
     inside = _edges_inside(count, arcs)
     begins_of_rows: list[dict[int, int]] = []  # for each number of rows: begin of the last row by its end
-    costs: dict[int, tuple[int, float]] = {0: (0, 0.0)}  # by end: minus edges within rows, sum of squared widths
+    costs: dict[int, tuple[int, float]] = {0: (0, 0.0)}  # by end: minus edges in rows, sum of squared widths
     while count not in costs:
         following: dict[int, tuple[int, float]] = {}
         begins: dict[int, int] = {}

@@ -18,7 +18,7 @@ from .stage_readers import read_budget, read_limits, read_phases
 ANNOTATION = "org.perilune.report"
 BUDGET, LIMITS = "Budget", "Limits"
 GROUP, FOLDED = "Group", "folded"
-UNGROUPED = (LIMITS, "Scene")  # which have separate sections
+UNGROUPED = (LIMITS, "Scene")  # elements with separate sections
 READERS: Mapping[str, Callable[[SignalReader, etree._Element], FigureDeclaration]] = {
     "Band": read_band,
     "Pulses": read_pulses,

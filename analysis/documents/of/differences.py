@@ -15,7 +15,7 @@ from ..pictures import Figures
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 
 NAMED = 6  # listed signals that only one run has
-COMPARED_DIGITS = 9  # of the numbers that differ
+COMPARED_DIGITS = 9  # digits of numbers that differ
 
 
 def differences_document(runs: RunDifferences, tolerance: float) -> Document:

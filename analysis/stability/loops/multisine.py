@@ -55,7 +55,7 @@ def multisine(
         desired = np.geomspace(1.0, highest_odd, max(2, 1 + round(per_decade * np.log10(highest_odd))))
         candidates = np.unique(2 * np.round((desired - 1.0) / 2.0).astype(int) + 1)
     random = np.random.default_rng(seed)
-    groups = np.arange(1, len(candidates) - _GROUP + 1, _GROUP)  # from the second candidate on, whole groups only
+    groups = np.arange(1, len(candidates) - _GROUP + 1, _GROUP)  # complete groups, beginning with the second candidate
     lines = np.delete(candidates, groups + random.integers(_GROUP, size=len(groups)))
     phases = _low_crest(samples, lines, random)
     signal = amplitude * _unit_signal(samples, lines, phases)

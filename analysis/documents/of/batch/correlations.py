@@ -15,7 +15,7 @@ from ...pictures import Figures
 from .content import BatchContent
 from .scatters import failure_figures, outcome_marks
 
-MOST_INPUTS = 3  # of a metric
+MOST_INPUTS = 3  # inputs listed for a metric
 
 
 class CorrelatedInputs(NamedTuple):

@@ -27,7 +27,7 @@ def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -
 
 
 def is_tightest(report: StabilityStudy, subject: LoopReport | JointReport) -> bool:
-    """Return True if a loop, among several, has the tightest margin."""
+    """Return True if there are several loops, and this loop has the tightest margin."""
     nearest = tightest(report)
     return nearest is not None and nearest.subject is subject and len(report.loops) + len(report.joint) > 1
 

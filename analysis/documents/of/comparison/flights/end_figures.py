@@ -53,7 +53,7 @@ def common_extent(ends: Mapping[str, Ends]) -> float:
 
 
 def extent_of(ends: Ends) -> tuple[float, float]:
-    """Return the reach of successful trials and their 3-sigma ellipse from the target, and the reach of `BULK`."""
+    """Return the largest distance of successful trials and their ellipse from the target, and its quantile `BULK`."""
     good, bad = select_ends(ends)
     away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
     if not away.size:
