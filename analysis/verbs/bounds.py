@@ -141,5 +141,5 @@ def _target(lookup: Lookup, archive: SystemArchive) -> Path:
         return Path(lookup.label)
     check_stored_system(archive)
     origin = archive.files[inside]
-    assert isinstance(origin, Path)  # the origin of a folder's archive
+    assert isinstance(origin, Path)  # the archive is a folder
     return Path(os.path.normpath(origin.parent / lookup.file))

@@ -16,7 +16,7 @@ Segment = tuple[Point, Point]
 
 @dataclass
 class PlacedBlock:
-    """A placed block; ``ports`` are the ends of edges, and ``inner`` is the content of a nested system at ``origin``."""
+    """A placed block; ``ports`` are the ends of edges, and ``inner`` is a nested system's content at ``origin``."""
 
     block: DiagramBlock
     shape: Shape
