@@ -48,7 +48,7 @@ class PulseAllocation(Block):
         description="fraction of the unfired impulse retained at a sample without demand",
     )
     mean = Parameter(False, description="true: mean torque over a sample period applied in place of pulses")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period of the pulse allocation", minimum=1e-3)
     torque_command = body.TORQUE.input("commanded torque of the jets, mean over the sample period")
     pulse_lengths = body.PULSES.output(direct=True)
     pulse_count = body.PULSE_COUNT.output()

@@ -38,7 +38,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()
     final_altitude = State(0.0, unit="m", description="altitude of the target above the sphere of moon_radius")
-    altitude = State(0.0, unit="m", description="altitude")
+    altitude = State(0.0, unit="m", description="altitude of the lander above the sphere of moon_radius")
     forward = State(
         [1.0, 0.0, 0.0],
         unit="1",
