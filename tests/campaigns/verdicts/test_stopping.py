@@ -227,7 +227,7 @@ def test_only_looks_are_looked_at():
     assert RULE.count_permitted(2299) == (2200, -1)
     assert RULE.count_permitted(4199) == (4000, 1)
     assert RULE.count_permitted(99) == (0, -1)
-    with pytest.raises(ValueError, match="no look after 2250 flights"):
+    with pytest.raises(ValueError, match="no interim analysis is planned after 2250 trials"):
         RULE.decide(2250, 0)
     with pytest.raises(ValueError, match=r"0\.3 is not in 0\.5 to 1"):
         StoppingRule(0.9, 0.3)
