@@ -49,15 +49,15 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
         name, segments = entry.filename, entry.filename.split("/")
         if "\\" in name:
             raise InputError(
-                label, name, "a backslash in the file name, which the zip format does not allow", BACKSLASH
+                label, name, "the file name contains a backslash, which the zip format does not allow", BACKSLASH
             )
         if name.startswith("/") or ".." in segments or ":" in segments[0]:
             raise InputError(label, name, "the path leads out of the archive", "repack the archive without this file")
         if stat.S_ISLNK(entry.external_attr >> 16):
-            raise InputError(label, name, "a symbolic link, which is not accepted in an archive", LINK)
+            raise InputError(label, name, "is a symbolic link, which is not accepted in an archive", LINK)
         if checksums.setdefault(name, entry.CRC) != entry.CRC:
             raise InputError(
-                label, name, "two files with this name and different contents", "repack the archive with one of the two"
+                label, name, "two files have this name and different contents", "repack the archive with one of the two"
             )
     return archive
 
@@ -68,7 +68,7 @@ def read_entry(archive: zipfile.ZipFile, name: str, label: str) -> bytes:
     try:
         return archive.read(name)
     except UNREADABLE as error:
-        raise InputError(label, name, f"damaged in the zip: {error}", REMEDY) from error
+        raise InputError(label, name, f"is damaged in the archive: {error}", REMEDY) from error
 
 
 class ZippedFiles(Mapping[str, bytes]):

@@ -67,7 +67,7 @@ class Block(DataFiles, HasExternalState):
                 cls.variables[name] = variable
         for name, bundle in cls.bundles.items():
             if inspect.getattr_static(cls, name) is not bundle:
-                kind = f"a {bundle.bundle.__name__} of what {cls.__name__} derives from"
+                kind = f"is a {bundle.bundle.__name__} in a base class of {cls.__name__}"
                 raise DeclarationError(f"{cls.__name__}.{name}: {kind}; give the variable another name")
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
@@ -87,7 +87,7 @@ class Block(DataFiles, HasExternalState):
         """
         before = cls.variables.get(name)
         if before is not None and before.causality != value.causality:
-            kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
+            kinds = f"has causality {value.causality} here, but {before.causality} in a base class of {cls.__name__}"
             raise DeclarationError(f"{cls.__name__}.{name}: {kinds}; give the variable another name")
 
     @classmethod

@@ -94,7 +94,9 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     for block in blocks:
         other = names.setdefault(block.fmu_name, block.__name__)
         if other != block.__name__:
-            raise ValueError(f"{path}: {other} and {block.__name__} are both the FMU {block.fmu_name}; rename one")
+            raise ValueError(
+                f"{path}: {other} and {block.__name__} have the same FMU name, {block.fmu_name}; rename one"
+            )
     return blocks
 
 

@@ -30,14 +30,28 @@ class Role:
 
 
 ROLES = (
-    Role(SAMPLE_PERIOD, "Parameter, s", "the block steps at start + k periods; 0: at every communication point", True),
-    Role(START_TIME, "State, s", "set to the start of the simulation before `initialize` runs", True),
-    Role(INTEGRATION_STEPS[1], "Parameter, s", "a communication step holds 10^6 of them at most", True),
-    Role(INTEGRATION_STEPS[0], "State, s", "the same, instead of `internal_step`", True),
-    Role(SEED, "Parameter, Integer", "a campaign sets it, with `stream`, to its own seed"),
-    Role(STREAM, "Parameter, Integer", "another one for each trial and component"),
-    Role(STATUS, "Output, Integer or Enumeration", "0 is good; the worst of a simulation is printed and reported"),
-    Role(FINISHED, "Output of the system, Boolean", "ends the simulation where it is true"),
-    Role(f"{FROZEN}NAME", "Parameter", "above 0 it is what the output NAME is held at, for stability studies"),
+    Role(
+        SAMPLE_PERIOD,
+        "Parameter, s",
+        "sample period: the block steps at start + k periods; 0: at every communication point",
+        True,
+    ),
+    Role(START_TIME, "State, s", "start time of the simulation, set before `initialize` runs", True),
+    Role(
+        INTEGRATION_STEPS[1],
+        "Parameter, s",
+        "longest step of numerical integration; a communication step contains at most 10^6 of them",
+        True,
+    ),
+    Role(INTEGRATION_STEPS[0], "State, s", "the same as a state, in place of `internal_step`", True),
+    Role(SEED, "Parameter, Integer", "seed of random numbers; a campaign sets it to its own seed"),
+    Role(STREAM, "Parameter, Integer", "random stream; a campaign sets a different one for each trial and component"),
+    Role(
+        STATUS,
+        "Output, Integer or Enumeration",
+        "status of the block, 0 if good; the worst status of a simulation is printed and reported",
+    ),
+    Role(FINISHED, "Output of the system, Boolean", "ends the simulation when it becomes true"),
+    Role(f"{FROZEN}NAME", "Parameter", "value at which the output NAME is held in stability studies, if above 0"),
 )
 LIFE_CYCLE = {role.name: role for role in ROLES if role.is_in_life_cycle}

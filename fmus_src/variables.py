@@ -107,7 +107,9 @@ class Variable:
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
         whole = next((name for name, field in self.numbers_of_record() if field.kind in (int, bool)), None)
         if whole is not None:
-            problem = f"the field {whole} of its record is no float, as all numbers of a record's variable are"
+            problem = (
+                f"the field {whole} of its record is not a float, but all numbers of a record variable must be floats"
+            )
             raise DeclarationError(f"{where}: {problem}; declare that field as a separate variable")
         if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not form rows of {self.columns}")

@@ -96,7 +96,7 @@ class BatchResult(Documented, results.CampaignResult):
                 raise KeyError(f"no metric {name}; {suggestion(name, known)}")
         selected = [known[name] for name in metrics] or sort_metrics(self)[0]
         if not selected:
-            raise ValueError(f"{self.plan.campaign.file}: no metric that varies and is finite anywhere")
+            raise ValueError(f"{self.plan.campaign.file}: no metric varies and has a finite value")
         return metric_plot(self, selected)
 
 

@@ -57,7 +57,7 @@ class TrialBounds(Documented):
         missing = np.flatnonzero(~np.isfinite(self.propellant))
         if not missing.size:
             return []
-        return [f"{missing.size} trials, the first of them {missing[0]}, cannot reach the target in any time"]
+        return [f"{missing.size} trials (the first is {missing[0]}) cannot reach the target within any duration"]
 
 
 @verb(BOUNDS)

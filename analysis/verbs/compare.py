@@ -71,7 +71,7 @@ class Comparison(Documented, comparison.CampaignComparison):
         distributions = metric_distributions(self)
         sampled = [known[name] for name in metrics] or sort_metrics(distributions)[0]
         if not sampled:
-            raise ValueError("no metric that varies and is finite anywhere")
+            raise ValueError("no metric varies and has a finite value")
         return plot_figures(metric_figures(distributions, sampled, looks_of(self)), list(self.contenders))
 
 
@@ -84,7 +84,7 @@ def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOp
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:
-        raise InputError("compare", "", "no results folder given", "name what batch(..., output=...) wrote")
+        raise InputError("compare", "", "no results folder is given", "give folders that batch(..., output=...) wrote")
     compared = compare_folders(Comparison, folders, options["reference"])
     compared.text(options["metrics"])  # rejects unknown names
     return replace(compared, displayed=tuple(options["metrics"]))

@@ -69,7 +69,7 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
         layers = read_declaration(read_description(archive)).layers
         return Composition(source, tuple(write_source(source, archive, Path(output), layers)))
     if output is not None:
-        problem = f"an SSD is written next to its file, as {DESCRIPTION}"
+        problem = f"an SSD is written next to its system.toml, as {DESCRIPTION}"
         raise InputError("`output`", os.fspath(output), problem, "leave out `output`")
     target = path.parent / DESCRIPTION
     source, document = compose_file(path)

@@ -69,7 +69,7 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     name, system = os.fspath(what), system_options(options)
     if options["campaign"] is not None:
         if component is not None or system != System():
-            problem = "a campaign is described without a component and without other options"
+            problem = "a campaign cannot be described together with a component or other options"
             raise InputError(
                 "`campaign`", options["campaign"], problem, "leave out the component and the other options"
             )
@@ -83,7 +83,7 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     if name in system_names() or Path(name).exists():
         return _describe_system(name, component, system)
     known = [*system_names(), *slots(), *catalogue()]
-    raise InputError("describe", name, "no system, FMU or slot of this name", suggestion(name, known))
+    raise InputError("describe", name, "no system, FMU or slot has this name", suggestion(name, known))
 
 
 def _describe_fmu(name: str, options: System) -> Description:

@@ -42,8 +42,8 @@ class Differences(Documented):
             return []
         beyond, _ = self.runs.split(self.tolerance)
         lines = [f"{each.name}: differs by {number(each.relative, 3)} of its largest magnitude" for each in beyond]
-        lines += [f"{name}: in one run only" for names in self.runs.only for name in names]
-        return [*lines, *(f"{name}: units {unit} and {other}" for name, unit, other in self.runs.unlike)]
+        lines += [f"{name}: only one run has this signal" for names in self.runs.only for name in names]
+        return [*lines, *(f"{name}: its units differ, {unit} and {other}" for name, unit, other in self.runs.unlike)]
 
 
 @verb(DIFF)
@@ -56,5 +56,5 @@ def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> D
     """
     tolerance = options["tolerance"]
     if tolerance is not None and not tolerance >= 0.0:  # rejects NaN, too
-        raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction such as 1e-6")
+        raise InputError("`tolerance`", str(tolerance), "negative, or not a number", "give a fraction such as 1e-6")
     return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), tolerance)

@@ -72,7 +72,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
-        raise InputError("export", text, "the compiler refused it", " ".join(str(error).split())) from error
+        raise InputError("export", text, "the compiler rejected its C source", " ".join(str(error).split())) from error
     except InputError:
         raise
     except SubsetError as error:
@@ -80,7 +80,10 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     except ValueError as error:  # from a block: its declaration or its imports
         raise SeveralProblemsError(" ".join(str(error).split())) from error
     if flavour is None and "native" not in written.flavours and not available_platforms():
-        warnings.warn("no C compiler found: the Python flavour only; pip install ziglang for both", stacklevel=2)
+        warnings.warn(
+            "no C compiler was found, so only the Python flavour was written; pip install ziglang for both",
+            stacklevel=2,
+        )
     return Exported(written.paths, written.flavours, written.platforms, request.fmi)
 
 
@@ -115,7 +118,7 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> ExportedFiles:
     request.check_one_fmu()
     name = request.name
     if not _names_system(name) and not name.endswith(".ssp"):
-        problem = "not a system, and only a system can become one FMU"
+        problem = "only a system can become one FMU"
         raise InputError("`as_fmu`", name, problem, suggestion(name, system_names()))
     archive = open_system(name)
     path = request.output or Path(f"{_archive_name(name).removesuffix('.ssp')}.fmu")

@@ -109,7 +109,7 @@ def inventory(what: str | None = None) -> Inventory:
     matches = everything.matching(what)
     if matches.is_empty:
         remedy = f"give another text, or a kind: {', '.join(KINDS)}"
-        raise InputError("list", what, "found in no name or description", remedy)
+        raise InputError("list", what, "no name or description contains this word", remedy)
     return matches
 
 

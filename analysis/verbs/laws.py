@@ -97,7 +97,7 @@ def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
     component = options["component"]
     if not component.isprintable() or "" in component.split("."):
         raise InputError(
-            "`component`", repr(component), "not the name of a component", "give the name that the system uses"
+            "`component`", repr(component), "not a valid component name", "give the name that the system uses"
         )
     return Law(**vars(laws.read_law(find_law(os.fspath(name)))), component=component)
 

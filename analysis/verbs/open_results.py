@@ -61,7 +61,9 @@ def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None)
         if _varies(whole) or (metrics is not None and np.isfinite(whole).any()):
             displayed[metric] = values
     if not displayed:
-        raise ValueError(f"{', '.join(filter(None, results)) or 'the campaign'}: no metric that varies and is finite")
+        raise ValueError(
+            f"{', '.join(filter(None, results)) or 'the campaign'}: no metric varies and has a finite value"
+        )
     lines = list(dict.fromkeys(line for values in displayed.values() for line in values))
     return distribution_plot(displayed, {line: look(index) for index, line in enumerate(lines)})
 
@@ -81,8 +83,8 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
     (first, metric), *others = ((label, known[name]) for label, known in declared.items())
     for label, other in others:
         if other.unit != metric.unit:
-            problem = f"in {other.unit}, in {metric.unit} in {first}"
-            raise InputError(label, f"metric {name}", problem, "plot metrics of one unit, by naming them")
+            problem = f"its unit is {other.unit}, but {metric.unit} in {first}"
+            raise InputError(label, f"metric {name}", problem, "name metrics that have the same unit in all folders")
     return metric
 
 

@@ -89,11 +89,11 @@ def plan_hover_transfer(
     Raises InputError for a vehicle that cannot hover, and PlanError if no plan exists.
     """
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
-        problem = "without effect unless `optimum` or `bound` is given"
+        problem = "has no effect unless `optimum` or `bound` is given"
         raise InputError("`intervals`", str(options["intervals"]), problem, "also give `optimum` or `bound`")
     for name, base in NEEDS.items():
         if options[name] and not options[base]:  # type: ignore[literal-required]
-            problem = f"without effect unless `{base}` is given"
+            problem = f"has no effect unless `{base}` is given"
             raise InputError(f"`{name}`", "", problem, f"also give `{base}`")
     transfer = replace(transfer, **format_numbers(options, ("distance", "descent", "gravity")))
     vehicle = check_vehicle(replace(vehicle, **format_numbers(options, OF_VEHICLE)))
@@ -168,7 +168,7 @@ def plan_landing_bound(
     """
     chosen = system_options(options)
     if system is None and chosen != SystemOptions():
-        raise InputError("design bound", "system options", "no system to which they apply", "name a system")
+        raise InputError("design bound", "system options", "there is no system to which they apply", "name a system")
     prepared = None if system is None else prepare_system(os.fspath(system), chosen)
     inputs = None if prepared is None else _read_inputs(prepared)
     of_vehicle, of_landing = format_numbers(options, OF_VEHICLE), format_numbers(options, OF_LANDING)
@@ -201,7 +201,7 @@ def plan_landing_bound(
 def _read_inputs(prepared: PreparedSystem) -> Inputs:
     inputs = read_inputs(prepared)
     if inputs is None:
-        problem = f"no annotation {ANNOTATION}: the system does not declare the inputs of its landing's bound"
+        problem = f"the system does not declare the inputs of its landing's bound: it has no annotation {ANNOTATION}"
         raise InputError(
             prepared.network.file, "Annotations", problem, 'add this annotation; see "Planning" in the documentation'
         )
@@ -211,7 +211,7 @@ def _read_inputs(prepared: PreparedSystem) -> Inputs:
 def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> None:
     """Reject storing a bound for changed values, or in a folder that cannot store it. Raises InputError."""
     if prepared is None:
-        raise InputError("`store`", "", "no system in which to store it", "name a system")
+        raise InputError("`store`", "", "there is no system in which to store the bound", "name a system")
     check_stored_system(prepared.archive)
     if changed:
         problem = "a stored bound uses the system's own values"

@@ -116,10 +116,12 @@ class ReplayResult(Result):
         name, lines = f"{self.source}: trial {self.trial}", super().problems()
         success = self.replayed.plan.campaign.success.text
         if self.complete and not self.success:
-            lines.append(f"{name}: no success: {success} is not met")
+            lines.append(f"{name}: not a success: {success} is not met")
         elif self.complete and lines:
             judges = " and ".join([SYSTEM_JUDGES, *(["`require`"] if self.requirements else [])])
-            lines.append(f"{name}: a success of the campaign: {success} is met; the lines above are of {judges}")
+            lines.append(
+                f"{name}: a success of the campaign, since {success} is met; the lines above come from {judges}"
+            )
         remedy = "; the campaign ran with another version of Perilune, or foreign FMUs on another machine"
         return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
 
@@ -167,7 +169,7 @@ def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> Replaye
         return replay_plan(plan, trial, options["configuration"])
     for name in record_options(ReplayOptions, options):
         if name not in OF_A_FOLDER:
-            problem = "a campaign's folder already contains these"
+            problem = "a campaign's folder already determines this option"
             raise InputError(f"`{name}`", "", problem, f"leave out `{name}`, or give a system and `campaign`")
     watch = {name: options[name] for name in ("log", "timeout")}
     return replay_trial(Path(source), trial, options["configuration"], trust=select_permissions(options), **watch)

@@ -43,7 +43,7 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
         needed = everything[name].option.needs
         if needed and {**options, **files}.get(needed) is None:
             text = "" if value is True else str(value)
-            raise InputError(f"`{name}`", text, f"without effect unless `{needed}` is given", "give both or neither")
+            raise InputError(f"`{name}`", text, f"has no effect unless `{needed}` is given", "give both or neither")
     if "open" in files:
         require_browser("`open`")
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:  # imported where needed: they take as long as a run without t
 
     from ..documents.diagram.diagram import BlockDiagram
 
-STUCK = "nothing is written; see the FMU's messages with `log` all, or give a longer `timeout`"
+STUCK = "no file was written; see the FMU's messages with `log` all, or give a longer `timeout`"
 
 
 @dataclass(repr=False, kw_only=True)
@@ -107,7 +107,9 @@ class Result(Documented, results.FlightResult):
 
         plot = trajectory_plot(self)
         if plot is None:
-            raise ValueError(f"{self.system}: no signal COMPONENT.position of three elements in m; plot others by name")
+            raise ValueError(
+                f"{self.system}: no signal COMPONENT.position has three elements in m; plot other signals by name"
+            )
         return plot
 
     @property

@@ -60,7 +60,7 @@ class System:
         if names_fmu(source):
             path, source = Path(source), f"{RESOURCES}{Path(source).name}"
             if self._files.setdefault(source, path) != path:
-                problem = f"{path} and {self._files[source]} have one name"
+                problem = f"{path} and {self._files[source]} have the same file name"
                 raise InputError(self._source.name, name, problem, "rename one of the files")
         components = {**self._source.components, name: ComponentSource(source, where=name)}
         self._source = replace(self._source, components=components)

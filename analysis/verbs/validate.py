@@ -109,7 +109,7 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
             raise InputError(
                 path,
                 "system options",
-                "not a system, and the option applies only to systems",
+                "system options apply only to systems",
                 "validate this file alone",
             )
         if names_fmu(path):
@@ -148,7 +148,9 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
         read_synthesis(Path(path))
     elif system is None:
         other = read_campaign(Path(path)).system
-        return [f"checked without {other}, which is not a system of Perilune: also name the system in the same command"]
+        return [
+            f"checked without its system {other}, which Perilune does not contain: name the system in the same command"
+        ]
     else:
         check_plan(read_plan(system, path if os.path.dirname(path) else os.path.join(os.curdir, path), System()))
     return []
@@ -174,7 +176,7 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
         except MissingStopTimeError as error:
             subject = Subject(path, subject.options.replace(stop_time=error.earliest))
             prepared = prepare_system(path, subject.options, subject.fmus)
-            notes.append(f"{error.file}: no {error.element}: `run` needs `stop_time`")
+            notes.append(f"{error.file}: {error.element} is missing, so `run` needs `stop_time`")
         check_loops(subject, read_declaration(prepared.network.description))
         read_figures(prepared)
         bound = find_bound(prepared)

@@ -50,7 +50,7 @@ def test_a_law_by_its_name():
 
 
 def test_a_text_that_nothing_has(refusal):
-    expected = "list: no_such_text: found in no name or description; give another text, or a kind: "
+    expected = "list: no_such_text: no name or description contains this word; give another text, or a kind: "
     assert expected in refusal(["list", "no_such_text"])
 
 

@@ -85,7 +85,7 @@ def test_a_comparison(batch, folder, tmp_path):
     comparison.plot("flight_time")
     with pytest.raises(KeyError, match="no metric flight"):
         comparison.plot("flight")
-    with pytest.raises(perilune.InputError, match="no results folder given"):
+    with pytest.raises(perilune.InputError, match="no results folder is given"):
         perilune.compare()
 
 

@@ -120,13 +120,13 @@ def test_requirements_of_the_campaign(capsys, tmp_path, limit, share, status, wo
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--require", "analytic.success_rate > 1"], "--require: analytic.success_rate: no such number"),
+        (["--require", "analytic.success_rate > 1"], "--require: analytic.success_rate: the result has no such number"),
         (["--require", "1 +"], "--require: 1 +"),
         (["--compare", "guidance"], "--compare: guidance: not of the form SLOT=A,B,C"),
         (["--compare", "guidance=no_such_guidance"], "no such FMU is built"),
         (["--workers", "0"], "--workers: 0"),
         (["--seed", "-4"], "seed: -4"),
-        (["--campaign", "none"], "--campaign: no none"),
+        (["--campaign", "none"], "--campaign: neither the system nor the working folder has a file none"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
@@ -296,7 +296,7 @@ def test_a_replay_says_null_for_what_never_settles(grouped, capsys):
         ('analytic_guidance.groups["2"].trials > 0', 0, ""),
         ('analytic_guidance.groups["2"].statuses.failed == 0', 0, ""),
         ("analytic_guidance.metrics_all.never.p95 > 0", 1, "not met"),
-        ('analytic_guidance.groups["4"].trials > 0', 2, "no such number in the result"),
+        ('analytic_guidance.groups["4"].trials > 0', 2, "the result has no such number"),
         ("analytic_guidance.groups[2].trials > 0", 2, 'analytic_guidance.groups["2"].trials'),
     ],
 )

@@ -51,4 +51,4 @@ def test_without_a_browser_nothing_is_simulated(monkeypatch, tmp_path, refusal):
 
 
 def test_without_a_page(refusal):
-    assert "--open: without effect unless --report is given" in refusal(["run", "lunar_landing", "--open"])
+    assert "--open: has no effect unless --report is given" in refusal(["run", "lunar_landing", "--open"])

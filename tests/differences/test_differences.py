@@ -195,7 +195,9 @@ def test_a_signal_of_one_run_is_a_problem_under_a_tolerance(tmp_path):
     (tmp_path / "a.csv").write_text("time,h,v\n0,1,1\n1,1,1\n")
     (tmp_path / "b.csv").write_text("time,h\n0,1\n1,1\n")
     assert perilune.diff(tmp_path / "a.csv", tmp_path / "b.csv").problems() == []
-    assert perilune.diff(tmp_path / "a.csv", tmp_path / "b.csv", tolerance=0.0).problems() == ["v: in one run only"]
+    assert perilune.diff(tmp_path / "a.csv", tmp_path / "b.csv", tolerance=0.0).problems() == [
+        "v: only one run has this signal"
+    ]
 
 
 @pytest.mark.parametrize("tolerance", ["nan", "-1"])

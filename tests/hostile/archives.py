@@ -95,7 +95,7 @@ ARCHIVES: dict[str, tuple[Content, tuple[str, ...]]] = {
     "a drive's entry": (zipped(("C:/outside", b"x")), ("C:/outside", "leaves")),
     "a backslash": (zipped(("..\\outside", b"x")), ("..\\outside", "a backslash")),
     "a link for a description": (link(), ("SystemStructure.ssd", "a symbolic link", "not accepted in an archive")),
-    "two descriptions": (zipped(("SystemStructure.ssd", b"<x/>")), ("SystemStructure.ssd", "two files with this name")),
+    "two descriptions": (zipped(("SystemStructure.ssd", b"<x/>")), ("SystemStructure.ssd", "two files have this name")),
     "a folder and a file of one name": (
         zipped(("resources/ramp.fmu/x", b""), ("resources/ramp.fmu", b"")),
         ("ramp.fmu",),

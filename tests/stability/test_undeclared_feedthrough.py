@@ -209,7 +209,7 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     reported = capsys.readouterr()
     assert "  as feedthrough: " in reported.out
     assert (
-        "note: direct dependencies of outputs on inputs are not declared by wheel (FMU lag): assumed none"
+        "note: direct dependencies of outputs on inputs are not declared by wheel (FMU lag): none are assumed"
         in reported.out
     )
     (line,) = [line for line in reported.err.splitlines() if "modulus margin withheld" in line]

@@ -128,7 +128,7 @@ def test_without_a_folder(traced, tmp_path, capsys, refusal):
     few = str(traced[0] / "few.toml")
     assert main(["batch", SYSTEM, "--campaign", few, "--trace", str(tmp_path / "x.stmd")]) == 2
     assert "--trace: " in (message := capsys.readouterr().err)
-    assert "without effect unless --output is given" in message
+    assert "has no effect unless --output is given" in message
     assert ".stmd" in refusal(["batch", SYSTEM, "--campaign", few, "--output", str(tmp_path), "--trace", "x.xml"])
     assert list(tmp_path.iterdir()) == []
 

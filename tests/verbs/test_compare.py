@@ -135,7 +135,7 @@ def test_different_draws_exit_2_with_one_line(folders, tmp_path, capsys):
     assert main(["compare", str(folders[0]), str(tmp_path / "other")]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert "other: draws: ground_range is not drawn as in" in error
+    assert "other: draws: the samples of ground_range differ from those in" in error
 
 
 @pytest.mark.parametrize(

@@ -115,7 +115,7 @@ def test_a_matrix_keeps_its_shape(described):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["lunar_landng"], "no system, FMU or slot of this name; the nearest"),
+        (["lunar_landng"], "no system, FMU or slot has this name; the nearest"),
         ([SYSTEM, "guidence"], "guidence: no such component; use one of"),
         (["gone.fmu"], "no such file"),
         (["spherical_moon_lander", "plant"], "an FMU has no components"),

@@ -58,8 +58,11 @@ def test_the_command_line(capsys):
     ("arguments", "message"),
     [
         (["lunar_landing", "--campaign", "nowhere"], "nowhere"),
-        (["lunar_landing", "plant", "--campaign", "terminal_box"], "without a component"),
-        (["lunar_landing", "--campaign", "terminal_box", "--step", "0.1"], "without other options"),
+        (["lunar_landing", "plant", "--campaign", "terminal_box"], "together with a component or other options"),
+        (
+            ["lunar_landing", "--campaign", "terminal_box", "--step", "0.1"],
+            "together with a component or other options",
+        ),
     ],
 )
 def test_refusals(arguments, message, refusal):

@@ -89,9 +89,9 @@ def test_json(tmp_path, capsys):
         (["none"], "law: no such law or file; use one of diveev_2013, diveev_2013_basic"),
         (["diveev_2013", "--output", "law.txt"], "--output: law.txt: not .ssv"),
         (["diveev_2013", "--graph", "law.png"], "--graph: law.png: not .svg"),
-        (["diveev_2013", "--component", "plant"], "--component: plant: without effect unless --output is given"),
-        (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not the name of a component"),
-        (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not the name of a component"),
+        (["diveev_2013", "--component", "plant"], "--component: plant: has no effect unless --output is given"),
+        (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not a valid component name"),
+        (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not a valid component name"),
         (["bad.json", "--output", "law.ssv", "--graph", "law.svg"], "bad.json: matrix[8,3]: 5 is below the diagonal"),
     ],
 )

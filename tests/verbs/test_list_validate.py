@@ -139,7 +139,9 @@ def test_a_campaign_without_its_system_is_noted(tmp_path, capsys):
     (tmp_path / "c.toml").write_text(CAMPAIGN.format("other", "slope"))
     assert main(["validate", str(tmp_path / "c.toml")]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "checked without other, which is not a system of Perilune: also name the system in the same command" in said
+    assert (
+        "checked without its system other, which Perilune does not contain: name the system in the same command" in said
+    )
 
 
 @pytest.mark.usefixtures("fmus")

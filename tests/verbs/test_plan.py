@@ -142,13 +142,13 @@ def test_no_programme(capsys):
         (["transfer", "--maximum-throttle", "1.1"], "--maximum-throttle: 1.1: above 1"),
         (["transfer", "--distance", "-1"], "--distance: -1: below 0"),
         (["transfer", "--bound", "--intervals", "5"], "--intervals: 5: below 10"),
-        (["transfer", "--intervals", "50"], "--intervals: 50: without effect unless --optimum or --bound is given"),
-        (["transfer", "--adjoint"], "--adjoint: without effect unless --optimum is given; also give --optimum"),
+        (["transfer", "--intervals", "50"], "--intervals: 50: has no effect unless --optimum or --bound is given"),
+        (["transfer", "--adjoint"], "--adjoint: has no effect unless --optimum is given; also give --optimum"),
         (
             ["transfer", "--distances", "50"],
-            "--distances: without effect unless --free-fall is given; also give --free-fall",
+            "--distances: has no effect unless --free-fall is given; also give --free-fall",
         ),
-        (["transfer", "--turn-begun", "0.5"], "--turn-begun: without effect unless --free-fall is given"),
+        (["transfer", "--turn-begun", "0.5"], "--turn-begun: has no effect unless --free-fall is given"),
         (["transfer", "--free-fall", "--turn-begun", "1"], "--turn-begun: 1: above 0.9"),
         (["transfer", "--free-fall", "--distances", "50,-1"], "--distances: -1: below 0"),
         (["transfer", "--free-fall", "--distance", "0"], "--free-fall: a vertical descent, over 0 m, has no turn"),
@@ -166,8 +166,8 @@ def test_no_programme(capsys):
         (["transfer", "--dry-mass", "600"], "--dry-mass: 600: not below the mass, 600 kg"),
         (["bound", "--speed", "inf"], "--speed: 'inf': not a finite number"),
         (["bound", "--climb", "90"], "--climb: 90: above 89"),
-        (["bound", "--store"], "--store: no system in which to store it; name a system"),
-        (["bound", "--parameters", "a.ssv"], "system options: no system to which they apply"),
+        (["bound", "--store"], "--store: there is no system in which to store the bound; name a system"),
+        (["bound", "--parameters", "a.ssv"], "system options: there is no system to which they apply"),
         (["bound", "no_such_system"], "no_such_system: system: neither a system, a folder nor a file"),
         (["nothing"], "argument VERB: invalid choice: 'nothing'"),
         ([], "the following arguments are required: VERB"),
@@ -234,7 +234,7 @@ def test_landing_in_words(capsys):
     assert main(["design", "bound", "--direct", "--intervals", "40", "--dry-mass", "600"]) == 1
     captured = capsys.readouterr()
     assert "\npropellant 400.8" in captured.out
-    assert "\ndirect method, in which nothing is convex: 400.8" in captured.out
+    assert "\ndirect method, without the convex form: 400.8" in captured.out
     assert captured.err.startswith("perilune: the bound takes 400.8")
 
 

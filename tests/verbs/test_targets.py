@@ -207,6 +207,6 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path):
 
 def test_requirements_on_one_flight(capsys, refusal):
     assert main([*RUN, "--require", "time < 300", "--require", "plant.mass > 0"]) == 0
-    assert "plant.speed: no such number in the result" in refusal([*RUN, "--require", "plant.speed < 1"])
+    assert "plant.speed: the result has no such number" in refusal([*RUN, "--require", "plant.speed < 1"])
     assert main([*RUN, "--require", "plant.position[1] < 0"]) == 1
     assert capsys.readouterr().err == "perilune: --require: plant.position[1] < 0: not met\n"

@@ -33,7 +33,7 @@ def least_propellant(problem: PointMassProblem, intervals: int, accuracy: float 
     best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": accuracy})
     if best.x not in paths:
         raise PlanError(
-            f"bound: the optimization found no solution with {intervals} intervals and a duration near {best.x:.2f} s"
+            f"bound: the optimisation found no solution with {intervals} intervals and a duration near {best.x:.2f} s"
         )
     return paths[best.x]
 

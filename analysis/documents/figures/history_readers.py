@@ -89,7 +89,7 @@ def read_curve(reader: SignalReader, element: etree._Element) -> CurveFigure:
     labels = tuple(element.get("labels", "").split())
     if labels and len(labels) != len(signals):
         raise reader.refuse(
-            element, f"labels has {len(labels)} names, signals {len(signals)}", "give one label for each signal"
+            element, f"labels has {len(labels)} names, but signals has {len(signals)}", "give one label for each signal"
         )
     low, high = reader.limits(element, "low", "high")
     return CurveFigure(
@@ -113,13 +113,15 @@ def read_path(reader: SignalReader, element: etree._Element) -> PathFigure:
     equal = reader.truth(element, "equal")
     if equal and x.unit_name != y.unit_name:
         raise reader.refuse(
-            element, f"equal needs one unit, but {x.label} and {y.label} differ in unit", "leave out equal"
+            element,
+            f"equal needs the same unit on both axes, but {x.label} and {y.label} have different units",
+            "leave out equal",
         )
     points = []
     for child in reader.parts(element, ("Point",))["Point"]:
         if isinstance(x, Arc):
             raise reader.refuse(
-                child, "a Path with arc has no Points", "remove the Point, or give the Path x instead of arc"
+                child, "a Path with arc cannot have Points", "remove the Point, or give the Path x instead of arc"
             )
         name = reader.attributes(child, ("x", "y", "name"))["name"]
         points.append(PathPoint(reader.scalar(child, "x", like=x), reader.scalar(child, "y", like=y), name))

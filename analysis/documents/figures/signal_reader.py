@@ -102,7 +102,7 @@ class SignalReader(AnnotationReader):
         if low is None and high is None:
             raise self.refuse(element, "where needs from or to", "give from, to or both")
         if low is not None and high is not None and low > high:
-            raise self.refuse(element, f"from {low:g} is above to {high:g}", "swap them")
+            raise self.refuse(element, f"from = {low:g} is above to = {high:g}", "swap them")
         return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
@@ -219,7 +219,7 @@ class SignalReader(AnnotationReader):
             return signal
         if declared is None or unit is None or not declared.is_convertible(unit):
             actual, required = (each.name if each is not None else "none" for each in (declared, unit))
-            problem = f"{what}: its unit is {actual}, required is {required}"
+            problem = f"{what}: its unit is {actual}, but {required} is required"
             raise self.signal_error(element, signal.label, problem, "correct the unit, or name another signal")
         factor, offset = declared.conversion_to(unit)
         return Signal(signal.label, signal.names, unit, factor, (offset,) * len(signal.names))

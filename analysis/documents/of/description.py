@@ -72,7 +72,7 @@ def _fmu(content: Mapping[str, Any]) -> list[Node]:
     if content["undeclared_outputs"]:
         outputs = ", ".join(content["undeclared_outputs"])
         titled.append(
-            ["feedthrough", f"not declared of {outputs}: assumed none in a system, unless --feedthrough says so"]
+            ["feedthrough", f"not declared for {outputs}: in a system none is assumed, unless --feedthrough is given"]
         )
     times = f"{alone['start_time']:g} s to {alone['stop_time']:g} s in steps of {alone['step']:g} s"
     titled.append(["stand-alone", f"as {alone['component']}, {times}: perilune run {content['file']}"])
@@ -94,7 +94,7 @@ def _system(content: Mapping[str, Any]) -> list[Node]:
         Listing(titled, columns=TITLES),
         Listing(
             [[each["name"], each["fmu"], each["description"]] for each in components],
-            "components (perilune describe SYSTEM COMPONENT: all that one has)",
+            "components (perilune describe SYSTEM COMPONENT shows all variables of one)",
         ),
         Listing(
             [[each["name"], ", ".join(each["fits"])] for each in components if each["fits"]],
@@ -105,7 +105,7 @@ def _system(content: Mapping[str, Any]) -> list[Node]:
     settled = [each for each in components if each["feedthrough_origin"] != Origin.FMU]
     if settled:
         rows = [[each["name"], _feedthrough(each)] for each in settled]
-        nodes.append(Listing(rows, "feedthrough that is not as the FMU declares it"))
+        nodes.append(Listing(rows, "feedthrough that differs from the FMU's declaration"))
         nodes += [Text(f"  {cut}: a loop, cut at the start", is_wrapped=True) for cut in content["cut_at_start"]]
     overridden = [
         [f"{each['name']}.{row['name']}", _value(row), row["unit"] or "", row["from"]]

@@ -41,8 +41,8 @@ def diagram_document(
     connected: Sequence[Node] = [
         connections,
         Note(
-            "Units are those of the connectors. Empty in the last column: values arrive as they are, element by "
-            "element."
+            "Units are those of the connectors. If the last column is empty, values are passed unchanged, "
+            "element by element."
         ),
     ]
     sections = [

@@ -127,7 +127,7 @@ def describe_outcome(
         return status, f"{name} is {value}{beyond} at t = {time:g} s"
     if code == codes.UNMAPPED:
         name, value = list(layout.slots)[subject], buffers.values[subject]
-        return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
+        return status, f"{name}: the mapping of its connection has no entry for {value:g} at t = {time:g} s"
     if code == codes.INTERRUPTED:
         return status, f"interrupted at t = {time:g} s"
     if code == codes.TOO_LONG:
@@ -152,7 +152,9 @@ def describe_outcome(
         confirmed = parameters.words if fmi3 is None else fmi3.confirmed
         assigned = parameters[parameters.keys[subject]]
         actual = parameters.value_in(buffers.read_back, confirmed, subject)
-        words = f"{component}.{variable}: was set to {assigned}, and its FMU has {actual} after initialisation"
+        words = (
+            f"{component}.{variable}: was set to {assigned}, but has the value {actual} in its FMU after initialisation"
+        )
         return status, " | ".join([f"{words}: the FMU did not accept the value", *instances[component].messages])
     if code == codes.FAILED:
         component = list(instances)[subject]

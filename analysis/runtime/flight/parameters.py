@@ -134,7 +134,7 @@ class Parameters:
         """Return the start value of an element that was not set, in an array that is set as a whole."""
         variable = self._network.fmus[component].variables[name]
         if variable.start is None:
-            problem = f"{name} has neither a value nor a start, and FMI 3.0 sets arrays whole"
+            problem = f"{name} has neither a value nor a start, but FMI 3.0 sets only complete arrays"
             remedy = f"give a value for every element of {component}.{variable.array}"
             raise InputError(self._network.file, f"{component}.{name}", problem, remedy)
         return parse_value(variable.start, variable.type, self._network.fmus[component].label, name)
@@ -195,7 +195,7 @@ class Parameters:
             _one_by_one.add(fmu.digest)
         elif name not in _unreadable.setdefault(fmu.digest, set()):
             _unreadable[fmu.digest].add(name)
-            text = f"{fmu.label}: {name} cannot be read back: whether {component} takes its value is not known"
+            text = f"{fmu.label}: {name} cannot be read back, so it is not known whether {component} accepts its value"
             warnings.warn(text, stacklevel=2)
 
     def is_set_once(self, component: str) -> bool:

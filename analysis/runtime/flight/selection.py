@@ -98,7 +98,10 @@ def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) ->
             raise InputError("`record`", name, "no such variable", suggestion(name, known))
         if any(types[variable] in TEXTS for variable in variables):
             raise InputError(
-                "`record`", name, f"a {types[variables[0]]}, which is not recorded", "name numbers and Booleans"
+                "`record`",
+                name,
+                f"variables of type {types[variables[0]]} are not recorded",
+                "name numbers and Booleans",
             )
         actual |= dict.fromkeys(variables)
     return list(actual)

@@ -35,13 +35,13 @@ def check_description(root: etree._Element, label: str) -> None:
     interface = root.find("CoSimulation")
     if interface is None:
         kinds = [kind for kind in ("ModelExchange", "ScheduledExecution") if root.find(kind) is not None]
-        problem = f"not a co-simulation FMU: {' and '.join(kinds) or 'no interface'} only"
+        problem = f"not a co-simulation FMU: its interfaces are {' and '.join(kinds) or 'unknown'}"
         raise InputError(label, "CoSimulation", problem, "export the FMU for co-simulation")
     require_attributes(interface, ("modelIdentifier",), label, _line_of(interface))
     variables = [each for each in root.iterfind("ModelVariables/*") if isinstance(each.tag, str)]
     clock = next((each for each in variables if each.tag == "Clock"), None)
     if clock is not None:
-        problem = "a Clock: FMUs with clocks are not supported"
+        problem = "is a Clock, and FMUs with clocks are not supported"
         raise InputError(
             label, f"{clock.get('name')} (line {clock.sourceline})", problem, "export the FMU without clocks"
         )
@@ -52,7 +52,7 @@ def check_description(root: etree._Element, label: str) -> None:
     names = Counter(each.get("name") for each in [*variables, *root.iterfind("ModelVariables/*/Alias")])
     twice = next((name for name, count in names.items() if count > 1), None)
     if twice is not None:
-        raise InputError(label, str(twice), "two variables of this name", FIX)
+        raise InputError(label, str(twice), "two variables have this name", FIX)
     _check_references(root, variables, label)
     sizes = (("DefaultExperiment", ("startTime", "stopTime", "tolerance", "stepSize")),)
     for path, attributes in (*sizes, ("CoSimulation", ("fixedInternalStepSize",))):

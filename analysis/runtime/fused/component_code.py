@@ -68,7 +68,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
     """
     main = sources.get(f"{model}.c", "")
     if WRAPPER not in main:
-        problem = "its C code has another interface than fused steps need"
+        problem = "its C code does not have the interface that fused steps need"
         raise InputError(
             label, "sources", problem, "export the FMU again with this version of Perilune, or give `flavour` native"
         )

@@ -52,7 +52,8 @@ def fuse(
     components = _component_codes(instances)
     if not is_compilable(program):
         problem = (
-            f"the steps repeat after {len(program.phases) - 1} communication steps only, too many for one function"
+            f"the sequence of steps repeats only after {len(program.phases) - 1} communication steps, too many "
+            "for one function"
         )
         raise InputError("`flavour`", FUSED, problem, "give `flavour` native")
     library = _load(_compile(write_unit(program, recorded, components), is_needed))
@@ -103,7 +104,10 @@ def _compile(text: str, is_needed: Callable[[], bool]) -> Path:
         raise InputError("`flavour`", FUSED, NO_COMPILER, INSTALL) from error
     except CompilationFailed as error:
         lines = str(error).splitlines()
-        problem = f"the compiler refuses its C: {next((line for line in lines if 'error' in line), lines[0])}"
+        problem = (
+            "the compiler rejects the C code of the steps: "
+            f"{next((line for line in lines if 'error' in line), lines[0])}"
+        )
         raise InputError("`flavour`", FUSED, problem, "give `flavour` native") from error
     except OSError as error:
         problem = f"the library cannot be written: {error.filename or gettempdir()}: {reason_of(error)}"
@@ -138,5 +142,5 @@ def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance)
             continue
         references = np.array([variable.reference], dtype=np.uint32)
         if instance.locate(references, variable.type) != instance.address + offset_of(variable.reference):
-            problem = f"its C has {variable.name} at another address than its binary"
+            problem = f"the address of {variable.name} in its C code differs from its binary"
             raise InputError(instance.fmu.label, "sources", problem, "export the FMU again, or give `flavour` native")

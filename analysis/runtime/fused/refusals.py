@@ -39,7 +39,7 @@ def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
             "`flavour`", FUSED, "the system has FMI 3.0 FMUs, which cannot be fused", "give `flavour` native"
         )
     if not any(map(has_code, prepared.network.fmus.values())):
-        problem = "the system has no native FMU of Perilune, whose C could be fused"
+        problem = "the system has no native FMU of Perilune that could be fused"
         raise InputError("`flavour`", FUSED, problem, "leave `flavour` out")
     platform = local_platform()
     if platform is None:

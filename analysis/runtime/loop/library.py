@@ -109,7 +109,7 @@ def _compile() -> Path:
         problem = "the simulation loop is not built, and no C compiler is installed"
         raise InputError("Perilune", FOLDER, problem, "install cc, or pip install ziglang") from error
     except CompilationFailed as error:
-        problem = f"the compiler refuses the simulation loop: {str(error).splitlines()[0]}"
+        problem = f"the compiler rejects the simulation loop: {str(error).splitlines()[0]}"
         raise InputError("Perilune", FOLDER, problem, "repair the compiler") from error
     return file
 

@@ -74,7 +74,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = No
         try:
             verdict = _Trials(fmu, options, watch or TrialWatch()).decide()
         except ChildEndedError as error:
-            problem = f"tested alone, with its declared values: {error.how}"
+            problem = f"its test alone, with its declared values, failed: {error.how}"
             raise InputError(
                 fmu.label, fmu.name, problem, "repair the FMU; perilune run --log info shows its messages"
             ) from None
@@ -90,9 +90,12 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
         case Renewal.INSTANCE:
             return f"{component}: instantiated again for every simulation, since its reset fails: {verdict.reason}"
         case Renewal.PROCESS:
-            return f"{component}: one process per simulation, since a second one in a process differs: {verdict.reason}"
+            return (
+                f"{component}: one process per simulation, since a second simulation in the same process "
+                f"differs: {verdict.reason}"
+            )
         case Renewal.IRREPRODUCIBLE:
-            return f"{component}: one process per simulation; even so, simulations differ: {verdict.reason}"
+            return f"{component}: one process per simulation, but even then results differ: {verdict.reason}"
 
 
 def warn_of_processes(prepared: PreparedSystem, cost: float) -> None:

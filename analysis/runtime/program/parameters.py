@@ -34,7 +34,9 @@ class Start:
         """Raise FailedError if a value in the FMU differs from the value that was set."""
         for (name, requested), stored in zip(self.values.items(), actual, strict=True):
             if not agrees(requested, stored):
-                raise FailedError(f"{component}.{name} was set to {requested!r}, and its FMU has {stored!r}")
+                raise FailedError(
+                    f"{component}.{name} was set to {requested!r}, but has the value {stored!r} in its FMU"
+                )
 
 
 def agrees(requested: Sample, stored: Sample) -> bool:

@@ -109,7 +109,10 @@ def check_annotations(root: etree._Element, file: str) -> None:
             owner = annotation.getparent().getparent()
             if kind == FEEDTHROUGH and tag(owner) != "Component":
                 raise InputError(
-                    file, place, f"type {kind} is not for a {tag(owner)}", "move the annotation into a Component"
+                    file,
+                    place,
+                    f"type {kind} is not permitted in a {tag(owner)}",
+                    "move the annotation into a Component",
                 )
         elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
             raise InputError(file, place, f"no annotation has type {kind}", suggestion(kind, OURS))

@@ -190,7 +190,7 @@ class SystemArchive:
             return read_input(name, OTHER, bound_of(suffix)), name
         known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
         raise InputError(
-            self.label, option, f"no {name} in the system, nor a file of this name", suggestion(name, known)
+            self.label, option, f"neither the system nor the working folder has a file {name}", suggestion(name, known)
         )
 
     @cached_property
@@ -212,7 +212,7 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
         if names_file(path) and read_input(path, OTHER, bound_of(suffix)) != content:
             other = path if path.is_absolute() else f"./{path}"
             warnings.warn(
-                f"{option} {name}: read from {label}; another file of this name, {path} in the working folder, is not: "
+                f"{option} {name}: read from {label}, not from the different file {path} in the working folder; "
                 f"write {option} {other} to use that file",
                 stacklevel=4,
             )

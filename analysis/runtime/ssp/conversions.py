@@ -151,6 +151,6 @@ def check_type(transformation: Transformation, type_name: str, file: str, elemen
         raise InputError(
             file,
             element,
-            f"{transformation.kind} on a value of type {type_name}",
+            f"{transformation.kind} cannot be applied to a value of type {type_name}",
             f"use it between {required} connectors",
         )

@@ -37,9 +37,9 @@ def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: boo
         size, connector = dimension.get("size"), dimension.get("sizeConnector")
         where = f"{name}, Dimension (line {dimension.sourceline})"
         if size is not None and connector is not None:
-            raise InputError(file, where, "both size and sizeConnector", "remove one")
+            raise InputError(file, where, "has both size and sizeConnector", "remove one")
         if fixed and size is None:
-            raise InputError(file, where, "no size, which only connectors may omit", 'write size="..."')
+            raise InputError(file, where, "has no size, which only connectors may omit", 'write size="..."')
         dimensions.append(Dimension(None if size is None else int(size), connector, dimension.sourceline))
     if all(each.size is not None for each in dimensions):
         ARRAY_ELEMENTS.check(math.prod(each.size or 0 for each in dimensions), file, name)

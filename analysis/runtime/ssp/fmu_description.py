@@ -64,7 +64,7 @@ def check_description(root: etree._Element, label: str) -> None:
     names = Counter(variable.get("name") for variable in root.iterfind(VARIABLE))
     twice = next((name for name, count in names.items() if count > 1), None)
     if twice is not None:
-        raise InputError(label, str(twice), "two variables of this name", FIX)
+        raise InputError(label, str(twice), "two variables have this name", FIX)
 
 
 def require_attributes(element: etree._Element, names: Sequence[str], label: str, where: str) -> None:

@@ -76,14 +76,14 @@ def read_parameter_set(
         name, line = parameter.get("name", ""), parameter.sourceline
         where = f"{name} (line {line})"
         if name in assignments:
-            _flaw(notes, file, where, "given twice in one parameter set", "this value is taken", "remove one")
+            _flaw(notes, file, where, "given twice in one parameter set", "this value is used", "remove one")
         for item in parameter:
             if tag(item) == "Binary":
                 raise InputError(file, where, "Binary values are not supported", "remove the Binary value")
             if tag(item) in RUNTIME_TYPES:
                 unit_name = item.get("unit") or None
                 if unit_name is not None and unit_name not in units:
-                    problem, effect = f"unit {unit_name} is not defined here", "the value is taken without conversion"
+                    problem, effect = f"unit {unit_name} is not defined here", "the value is used without conversion"
                     _flaw(notes, file, where, problem, effect, "add it under Units")
                 shape, values = read_values(parameter, item, file)
                 kind, unit = runtime_type(tag(item)), units.get(unit_name or "")

@@ -50,7 +50,7 @@ def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> 
     inner = children(typed, "ssv:Value")
     single = typed.get("value")
     if single is not None and inner:
-        raise InputError(file, where, "both an attribute value and elements Value", "remove one")
+        raise InputError(file, where, "has both an attribute value and elements Value", "remove one")
     if runtime_type(type_name) in ("String", "Enumeration"):
         texts = [each.get("value", "") for each in inner] if inner or single is None else [single]
     else:

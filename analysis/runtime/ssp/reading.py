@@ -105,7 +105,7 @@ class Reader:
             if tag(item) in read:
                 inner = read[tag(item)](item)
                 if inner.name in system.elements:
-                    raise self.refuse(item, inner.name, "two elements with this name in one system", "rename one")
+                    raise self.refuse(item, inner.name, "two elements of the system have this name", "rename one")
                 system.elements[inner.name] = inner
         for item in children(child(element, "ssd:Connections"), "ssd:Connection"):
             system.connections.append(
@@ -203,7 +203,7 @@ class Reader:
             inline = element.find("{*}SignalDictionary")
             if inline is None:
                 raise self.refuse(
-                    element, name, "signal dictionary without source or content", "give source or content"
+                    element, name, "the signal dictionary has neither source nor content", "give source or content"
                 )
             check_schema(inline, "ssb", self.file)
             root = inline
@@ -234,7 +234,7 @@ class Reader:
         inline = values.find("{*}ParameterSet") if values is not None else None
         if source is None and inline is None:
             raise self.refuse(
-                element, "ParameterBinding", "neither source nor inline values", "give a source or values"
+                element, "ParameterBinding", "has neither source nor inline values", "give a source or values"
             )
         return Binding(
             prefix=element.get("prefix", ""),

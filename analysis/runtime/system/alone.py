@@ -70,6 +70,8 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
     steps = math.floor(ratio + STEP_ROUNDING) if 0.0 < ratio < math.inf else 0
     if options.chosen["stop_time"] is None and steps and ratio - steps > STEP_ROUNDING:
         whole = start + steps * step
-        remarks.append(f"{stop - start:g} s are not whole steps of {step:g} s: the end is {whole:g} s")
+        remarks.append(
+            f"{stop - start:g} s are not a whole number of steps of {step:g} s: the simulation ends at {whole:g} s"
+        )
         stop = whole
     return start, stop, step, remarks

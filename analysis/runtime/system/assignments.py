@@ -234,8 +234,8 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
                 raise InputError(
                     assignment.file,
                     assignment.where,
-                    f"unit {assignment.unit.name} does not fit {node.unit.name}",
-                    f"give the value in a unit that converts to {node.unit.name}",
+                    f"unit {assignment.unit.name} cannot be converted to {node.unit.name}",
+                    f"give the value in a unit convertible to {node.unit.name}",
                 )
             check_offset(network, node, assignment.unit, node.unit, assignment.file, assignment.where)
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
@@ -250,7 +250,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
         raise InputError(
             assignment.file,
             assignment.where,
-            f"no item {value} in the enumeration",
+            f"the enumeration has no item {value}",
             suggestion(str(value), node.enumeration),
         )
     return value

@@ -59,7 +59,10 @@ def check_shared(network: Network, settings: SystemSettings) -> None:
         if name in last:
             readers = {link.target.name for link in network.driver.values() if link.source.name == shared} | {name}
             actual = settings.variables[component, variable]
-            problem = f"{value} is not {actual}, which {shared} of the system gives to {', '.join(sorted(readers))}"
+            problem = (
+                f"{value} differs from {actual}, the value that {shared} of the system passes to "
+                f"{', '.join(sorted(readers))}"
+            )
             raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead, since both must agree")
 
 
@@ -127,7 +130,7 @@ def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: 
         raise InputError(
             *where, "an input that nothing is connected to", f"give the input a value with `set` {name}=VALUE"
         )
-    raise InputError(*where, "no such connector of a component", suggestion(name, known))
+    raise InputError(*where, "no component has such a connector", suggestion(name, known))
 
 
 def check_value(variable: ScalarVariable, kind: str, value: float | bool, where: tuple[str, str]) -> None:

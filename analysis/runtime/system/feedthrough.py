@@ -46,13 +46,13 @@ class Feedthrough:
         assumed = self.undeclared if algorithm == "sequential" else ()
         return [
             *(f"{name}: FMU {network.fmus[name].name}{ASSUMED}" for name in assumed),
-            *(f"{cut}: a loop through undeclared dependencies, cut here at the start" for cut in self.cuts),
+            *(f"{cut}: a loop through undeclared dependencies, which is cut here at the start" for cut in self.cuts),
         ]
 
 
 ASSUMED = (
-    " does not declare which inputs its outputs depend on directly: assumed none, so it is stepped with the inputs of"
-    " the step's start; where it is known, give `feedthrough` or `no_feedthrough`"
+    " does not declare which outputs depend directly on inputs: none are assumed to, so it is stepped with "
+    "inputs from the start of the step; if the dependencies are known, give `feedthrough` or `no_feedthrough`"
 )
 
 
@@ -121,7 +121,7 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
                 OPTIONS[0], name, f"is also given to {OPTIONS[1]}", "give the component to only one of the two options"
             )
         if is_alone:
-            problem = "an FMU alone is stepped with the inputs of the step's start, as FMPy does it"
+            problem = "an FMU alone is stepped with inputs from the start of the step, as in FMPy"
             raise InputError(
                 OPTIONS[0], name, problem, f"leave out {OPTIONS[0]}, or simulate the FMU as a component of a system"
             )

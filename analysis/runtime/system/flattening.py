@@ -93,7 +93,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     variable = fmu.variables.get(connector.name)
     if variable is None:
         if f"{connector.name}[1]" in fmu.variables or f"{connector.name}[1,1]" in fmu.variables:
-            problem = f"is an array in {fmu.label}, a scalar here"
+            problem = f"is an array in {fmu.label}, but a scalar here"
             raise network.refuse(
                 connector.at(name), problem, "give the connector its Dimensions (SSP 2.0), or name its elements"
             )
@@ -103,7 +103,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     if variable.causality != kind and not (kind == "constant" and variable.variability == "constant"):
         raise network.refuse(
             connector.at(name),
-            f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
+            f"is {variable.causality} in {fmu.label}, but {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
     stored = variable.type if variable.type == "Enumeration" else variable.representation.name
@@ -120,7 +120,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     if own and declared and not own.is_same(declared):
         raise network.refuse(
             connector.at(name),
-            f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
+            f"its unit is {own.differs_from(declared)} in {fmu.label}, but {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
         )
     unit, items = declared or own, dict(variable.items)
@@ -237,9 +237,9 @@ def _check_link(network: Network, link: NodeLink) -> None:
     source, target = link.source, link.target
     if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
         raise network.refuse(
-            link.where, f"types do not fit: {source.type_name} and {target.type_name}", "connect variables of one type"
+            link.where, f"types differ: {source.type_name} and {target.type_name}", "connect variables of the same type"
         )
     if link.added and target.type_name not in SUMMED:
-        raise network.refuse(link.where, f"a sum of values of type {target.type_name}", "add Reals or Integers")
+        raise network.refuse(link.where, f"values of type {target.type_name} cannot be added", "add Reals or Integers")
     if link.transformation != IDENTITY:
         check_type(link.transformation, target.type_name or "", network.file, link.where)

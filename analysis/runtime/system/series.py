@@ -57,7 +57,7 @@ def read_series(source: SeriesSource) -> InputSeries:
     if not series.time.size:
         raise InputError(series.file, "", "no samples", "give a line of numbers for each time")
     if not series.columns:
-        raise InputError(series.file, "", "no column except time", "give a column for each input, named like it")
+        raise InputError(series.file, "", "no column except time", "give a column with the name of each input")
     for name, values in {TIME: series.time, **series.columns}.items():
         wrong = np.flatnonzero(~np.isfinite(values))
         if wrong.size:
@@ -130,7 +130,7 @@ def _of_arrays(arrays: npt.NDArray[Any] | Mapping[str, npt.ArrayLike]) -> InputS
         except (TypeError, ValueError) as error:
             raise InputError(file, f"column {name}", f"not numbers: {error}", "give an array of numbers") from error
         if columns[name].ndim != 1 or columns[name].size != columns[names[0]].size:
-            problem = f"its shape is {columns[name].shape}, that of {names[0]} is {columns[names[0]].shape}"
+            problem = f"its shape is {columns[name].shape}, but the shape of {names[0]} is {columns[names[0]].shape}"
             raise InputError(file, f"column {name}", problem, "give one number for each time")
     digest = hashlib.sha256()
     for name, values in columns.items():

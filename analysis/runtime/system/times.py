@@ -27,7 +27,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     description, chosen = network.description, options.chosen
     if chosen["step"] is None and description.varies is not None:
         line = f"step (line {description.varies})"
-        raise InputError(network.file, line, "a variable step, which is not supported", "give a fixed step with `step`")
+        raise InputError(network.file, line, "a variable step is not supported", "give a fixed step with `step`")
     declared = chosen["step"] if chosen["step"] is not None else _read_step(network)
     step = declared if declared is not None else _shortest_proposal(network)
     if step is None:
@@ -63,7 +63,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         raise InputError(*requested, problem, "give a shorter `step`")
     if steps < 0 or abs(steps * step - duration) > STEP_ROUNDING * max(min(step, duration), abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
-        remedy = f"for instance `stop_time` {start + max(1, steps) * step:.12g}"
+        remedy = f"give for instance `stop_time` {start + max(1, steps) * step:.12g}"
         raise InputError(*stop_option, problem, remedy)
     return start, step, steps
 

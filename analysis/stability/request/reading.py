@@ -56,7 +56,7 @@ class _RequestReader(AnnotationReader):
             raise self.refuse(element, "needs either a time, or a signal and falls_to", "give one of the two")
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
-            raise self.refuse(element, f"until {until:g} s is not after time {time:g} s", "give a later until")
+            raise self.refuse(element, f"until = {until:g} s is not after time = {time:g} s", "give a later until")
         return PointDeclaration(
             name=values["name"],
             time=time,
@@ -136,5 +136,5 @@ class _RequestReader(AnnotationReader):
             raise self.refuse(element, "no such loop at this point", suggestion(values["loop"], loops))
         low, high = self.number(element, "low"), self.number(element, "high")
         if low is None or high is None or not low < high:
-            raise self.refuse(element, f"low {low} is not below high {high}", "swap them")
+            raise self.refuse(element, f"low = {low} is not below high = {high}", "swap them")
         return Sweep(values["name"], values["loop"], values["point"], values["parameter"], low, high)

@@ -16,7 +16,7 @@ def read_requirements(texts: Sequence[str], known: Collection[str], families: tu
     for requirement in requirements:
         for name in sorted(requirement.names - set(known)):
             if not name.startswith(families or ("\0",)):
-                raise InputError("`require`", name, "no such number in the result", suggestion(name, known))
+                raise InputError("`require`", name, "the result has no such number", suggestion(name, known))
     return requirements
 
 

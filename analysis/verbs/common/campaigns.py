@@ -39,7 +39,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
     settings, sweeps = split_sweeps(system_options(options))
     if sweeps and "trials" not in options:  # the options of a study, which draws the samples
         name, text = next(iter(sweeps.items()))
-        raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
+        raise InputError("`set`", f"{name}={text}", "a study cannot sweep a parameter", "give one value")
     series, draws = options["input"], options.get("draws")
     plan = read_plan(
         os.fspath(system),
@@ -62,7 +62,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
     if dropped := read.metrics_of_lookups():
         tables = ", ".join(lookup.name for lookup in read.lookups)
         warnings.warn(
-            f"{', '.join(dropped)}: omitted, since {tables} holds the campaign's own trials only", stacklevel=2
+            f"{', '.join(dropped)}: omitted, since {tables} covers only the campaign's own trials", stacklevel=2
         )
     return replace(plan, campaign=plan.campaign.without_lookups())
 
@@ -116,7 +116,7 @@ def warn_of_foreign_fmus(campaign: LoadedCampaign) -> None:
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)
     if foreign:
         warnings.warn(
-            f"{campaign.user_folder or campaign.folder}: simulates its foreign FMUs {', '.join(foreign)}",
+            f"{campaign.user_folder or campaign.folder}: runs its foreign FMUs {', '.join(foreign)}",
             stacklevel=2,
         )
 

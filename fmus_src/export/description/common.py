@@ -116,7 +116,7 @@ def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> st
     for number in elements:
         if isinstance(number, int) and not _is_32_bit(number):
             raise ValueError(
-                f"{variable.name}: starts at {number}, beyond 32 bits, the integers of FMI; give a smaller start"
+                f"{variable.name}: starts at {number}, beyond the 32-bit integers of FMI; give a smaller start"
             )
     return " ".join(map(literal, elements))
 

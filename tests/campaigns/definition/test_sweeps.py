@@ -175,8 +175,8 @@ def test_a_trial_of_a_sweep_flies_again(folder, tmp_path, capsys):
     [
         (["run", SYSTEM, "--set", SWEEP], "'900:1000:25' is not a single value; give one value, in kg; sweeps"),
         (["batch", SYSTEM, "--campaign", "paper", "--set", f"{MASS}=900:1000"], "is not a single value"),
-        (["rare", SYSTEM, "--campaign", "paper", "--set", SWEEP], "a study has no sweeps"),
-        (["sensitivity", SYSTEM, "--campaign", "paper", "--base", "64", "--set", SWEEP], "a study has no sweeps"),
+        (["rare", SYSTEM, "--campaign", "paper", "--set", SWEEP], "a study cannot sweep"),
+        (["sensitivity", SYSTEM, "--campaign", "paper", "--base", "64", "--set", SWEEP], "a study cannot sweep"),
         (["batch", SYSTEM, "--campaign", "paper", "--trials", "20", "--set", "plant.mas=1:2:1"], "no such parameter"),
         (["batch", SYSTEM, "--campaign", "paper", "--draws", "d.parquet", "--set", SWEEP], "a sweep cannot be"),
     ],

@@ -250,13 +250,13 @@ def test_nothing_says_faults_where_there_are_none(ssp, tmp_path):
 @pytest.mark.parametrize(
     ("text", "own", "says"),
     [
-        (SHIFTED.replace("gain.u", "gain.w"), [], "c.toml: fault.shifted.connector: no such connector of a component; "
+        (SHIFTED.replace("gain.u", "gain.w"), [], "c.toml: fault.shifted.connector: no component has such a connector; "
          "the nearest of 15 known names: gain.u, gain.y"),
         (SHIFTED.replace("gain.u", "ramp.count"), [], "c.toml: fault.shifted.value: "),
         (SHIFTED.replace("gain.u", "whole.c"), [], "c.toml: fault.shifted.value: a Boolean has no bias"),
         (SHIFTED.replace('"2 * size"', "true"), [], "c.toml: fault.shifted.value: true is not of type Real"),
         (SHIFTED.replace('"t1"', '"t0"'), [], "c.toml: fault.shifted.end: "),
-        (SHIFTED, [perilune.Fault("gain.w", "bias", 1.0)], "fault: gain.w: no such connector of a component"),
+        (SHIFTED, [perilune.Fault("gain.w", "bias", 1.0)], "fault: gain.w: no component has such a connector"),
         ("", [perilune.Fault("whole.b", "override", 3.0)], "fault: whole.b: 3 is not a Boolean"),
     ],
 )  # fmt: skip

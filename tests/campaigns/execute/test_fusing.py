@@ -66,7 +66,9 @@ def test_a_compiler_that_fails_is_said_once(fused, monkeypatch):
     monkeypatch.setattr(fusing, "COMPILATION", 0.0)
     monkeypatch.setattr(fuse, "FLAGS", (*fuse.FLAGS, "-fno-such-flag"))
     options = OPTIONS | {"workers": 1}
-    with pytest.warns(UserWarning, match="steps are not compiled: the compiler refuses its C") as noted:
+    with pytest.warns(
+        UserWarning, match="steps are not compiled: the compiler rejects the C code of the steps"
+    ) as noted:
         result = perilune.batch(SYSTEM, CAMPAIGN, **options)
     assert len(noted) == 1
     assert not any(fused)

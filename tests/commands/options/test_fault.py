@@ -98,7 +98,7 @@ def test_provenance_can_be_flown_again(folder, capsys):
         ("gain.u=bias:1@2..1", "--fault: gain.u=bias:1@2..1: empty window: the end, 1 s, is not after the start, 2 s"),
         (
             "gain.w=bias:1@0",
-            "fault: gain.w: no such connector of a component; the nearest of 13 known names: gain.u, gain.y",
+            "fault: gain.w: no component has such a connector; the nearest of 13 known names: gain.u, gain.y",
         ),
         ("whole.n=bias:.5@0", "fault: whole.n: 0.5 is not of type Integer; give a whole number"),
         ("whole.b=override:2@0", "fault: whole.b: 2 is not a Boolean; give true or false"),
@@ -118,7 +118,7 @@ def test_a_wrong_fault_of_a_campaign_is_refused_in_one_line(folder, batch, tmp_p
     path.write_text(CAMPAIGN + HELD.replace("ramp.y", "ramp.x"))
     assert main([*batch, str(path)]) == 2
     problem = (
-        "no such connector of a component; the nearest of 13 known names: ramp.y, ramp.flag, ramp.count, ramp.slope"
+        "no component has such a connector; the nearest of 13 known names: ramp.y, ramp.flag, ramp.count, ramp.slope"
     )
     error = capsys.readouterr().err
     assert error.startswith(f"perilune: {path}: fault.held.connector: {problem}")

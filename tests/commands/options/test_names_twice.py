@@ -48,7 +48,7 @@ def test_a_campaign(name, here, capsys):
     assert actual["seed"] == 20170700
     (line,) = said
     assert line.startswith(f"`campaign` {name}: read from ssp_systems/{SYSTEM}!")
-    assert line.endswith("paper.toml in the working folder, is not: write `campaign` ./paper.toml to use that file")
+    assert line.endswith("paper.toml in the working folder; write `campaign` ./paper.toml to use that file")
     said, actual = remarks([*BATCH, "--campaign", "./paper.toml"], capsys)
     assert (said, actual["seed"]) == ([], 5)
 
@@ -56,7 +56,7 @@ def test_a_campaign(name, here, capsys):
 def test_a_parameter_set(here, capsys):
     said, actual = remarks(["run", SYSTEM, "--parameters", "noisy.ssv"], capsys)
     (line,) = said
-    assert line.startswith(f"`parameters` noisy.ssv: read from ssp_systems/{SYSTEM}!resources/noisy.ssv; another file")
+    assert line.startswith(f"`parameters` noisy.ssv: read from ssp_systems/{SYSTEM}!resources/noisy.ssv, not from")
     assert line.endswith("write `parameters` ./noisy.ssv to use that file")
     said, other = remarks(["run", SYSTEM, "--parameters", "./noisy.ssv"], capsys)
     assert said == []
@@ -64,7 +64,7 @@ def test_a_parameter_set(here, capsys):
 
 
 def test_from_python(here):
-    with pytest.warns(UserWarning, match="another file of this name, noisy.ssv in the working folder, is not"):
+    with pytest.warns(UserWarning, match="not from the different file noisy.ssv in the working folder"):
         perilune.simulate(SYSTEM, parameters=["noisy.ssv"])
 
 

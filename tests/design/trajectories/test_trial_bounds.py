@@ -140,4 +140,4 @@ def test_a_target_out_of_reach_is_a_problem(mine, capsys):
     call = ["design", "bounds", "lunar_landing", "--campaign", str(mine), "--intervals", "10", "--workers", "1"]
     assert main([*call, "--trials", "1"]) == 1
     captured = capsys.readouterr()
-    assert "1 trials, the first of them 0, cannot reach the target in any time" in captured.err + captured.out
+    assert "1 trials (the first is 0) cannot reach the target within any duration" in captured.err + captured.out

@@ -132,10 +132,10 @@ WRONG = {
     ),
     "unknown unit": ('<Band signal="plant.angles" low="0" unit="grad"/>', "Band", "unit grad is not defined"),
     "unit that does not fit": (
-        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, required is s"
+        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, but s is required"
     ),
     "unit of what has none": (
-        '<Band signal="plant.status" low="0" unit="s"/>', "Band", "plant.status: its unit is none, required is s"
+        '<Band signal="plant.status" low="0" unit="s"/>', "Band", "plant.status: its unit is none, but s is required"
     ),
     "about of another size": (
         '<Band signal="plant.angles" low="0" about="1 2"/>', "Band", "about has 2 numbers, plant.angles has 3 elements"
@@ -146,7 +146,7 @@ WRONG = {
     ),
     "pulses without lengths": ("<Pulses/>", "Pulses", "no lengths"),
     "pulses that are no times": (
-        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, required is s"
+        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, but s is required"
     ),
     "count that is Real": (
         '<Pulses lengths="pulses.pulse_lengths" count="plant.jet_seconds"/>', "Pulses",
@@ -167,11 +167,11 @@ WRONG = {
     ),
     "truth of another unit": (
         '<Error estimate="observer.estimated_angles" truth="plant.angular_velocity"/>', "Error",
-        "truth plant.angular_velocity: its unit is rad/s, required is rad",
+        "truth plant.angular_velocity: its unit is rad/s, but rad is required",
     ),
     "sigma of another unit": (
         '<Error estimate="plant.angles[2]" truth="plant.angles[2]" sigma="plant.jet_seconds"/>', "Error",
-        "sigma plant.jet_seconds: its unit is s, required is rad",
+        "sigma plant.jet_seconds: its unit is s, but rad is required",
     ),
     "time that is no number": (
         '<Error estimate="plant.angles" truth="plant.angles" after="soon"/>', "Error", "after 'soon' is not a number"
@@ -264,16 +264,18 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny
         '<Error estimate="ramp.y" truth="ramp.y" sigma="body.y"/>\n'
         '<Pulses lengths="ramp.y" count="ramp.count"/>'
     )
-    with pytest.raises(InputError, match=r"sigma body\.y: its unit is rad, required is m"):
+    with pytest.raises(InputError, match=r"sigma body\.y: its unit is rad, but m is required"):
         swapped(tmp_path, tiny, inside, {})  # the system's own FMUs are its own fault
-    with pytest.raises(InputError, match=r"Pulses \(line \d+\): lengths ramp\.y: its unit is m, required is s"):
+    with pytest.raises(InputError, match=r"Pulses \(line \d+\): lengths ramp\.y: its unit is m, but s is required"):
         swapped(tmp_path, tiny, inside, {"body": "ramp"})
     attitude, error, pulses = swapped(tmp_path, tiny, inside, {"body": "whole", "ramp": "gain"})
     assert attitude == UnavailableFigure("Attitude", ("signal body.y: no such signal, with whole as body",))
     assert isinstance(error, ErrorFigure)
     assert error.sigma is None
     assert error.notes == ("Left out: sigma body.y: no such signal, with whole as body.",)
-    assert pulses == UnavailableFigure("Pulses", ("lengths ramp.y: its unit is m, required is s, with gain as ramp",))
+    assert pulses == UnavailableFigure(
+        "Pulses", ("lengths ramp.y: its unit is m, but s is required, with gain as ramp",)
+    )
 
 
 def test_units_with_factor_and_offset(tmp_path, tiny):

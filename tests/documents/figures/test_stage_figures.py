@@ -259,7 +259,8 @@ def test_a_path_over_the_ground():
     np.testing.assert_allclose(np.abs(arc.plot_values(mission(place=place))), 500.0 * math.pi, rtol=1e-15)
     np.testing.assert_array_equal(arc.plot_values(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
     assert notes(section)[0].endswith(
-        "downrange: way of ship.place along the great circle of its track, 0 at the origin, growing in flight."
+        "downrange: distance of ship.place along the great circle of its track, 0 at the origin and increasing "
+        "in the direction of flight."
     )
     assert section.plot.charts[0].rules == []
     surface = one(replace(PATH, x=arc, y=scalar("ship.altitude", METRE), points=(), equal=False),

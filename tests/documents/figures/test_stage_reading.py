@@ -184,7 +184,7 @@ WRONG = {
     ),
     "times of a status that are none": (
         f'<Phases signal="plant.status" status_times="plant.angles">{ONE}</Phases>',
-        "Phases", "status_times plant.angles: its unit is rad, required is s",
+        "Phases", "status_times plant.angles: its unit is rad, but s is required",
     ),
     "a value that is not whole": (
         '<Phases signal="plant.status"><Phase value="1.5" name="a"/></Phases>', "Phase", "value 1.5 is not an integer"
@@ -226,7 +226,7 @@ WRONG = {
     ),
     "less in another unit": (
         '<Limits><Limit signal="plant.angles" less="regulator.angle_poles" measure="length" most="1"/></Limits>',
-        "Limit", "less regulator.angle_poles: its unit is 1/s, required is rad",
+        "Limit", "less regulator.angle_poles: its unit is 1/s, but rad is required",
     ),
     "less of nothing": (
         '<Limits><Limit signal="plant.angles" less="plant.target" measure="length" most="1"/></Limits>',
@@ -237,13 +237,13 @@ WRONG = {
         "Limit", "has both about and less; give one of the two",
     ),
     "a limit in another unit": (
-        f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, required is s"
+        f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, but s is required"
     ),
     "a path without x": (f'<Path y="{SPACE}"/>', "Path", "either x, or arc and radius"),
     "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "either x, or"),
     "an arc without radius": (f'<Path arc="plant.angles" y="{SPACE}"/>', "Path", "either x, or arc and radius"),
     "an arc of angles": (
-        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, required is m"
+        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, but m is required"
     ),
     "unlike axes to one scale": (
         f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave out equal"
@@ -251,7 +251,7 @@ WRONG = {
     "neither true nor false": (f'<Path x="{SPACE}" y="{SPACE}" equal="yes"/>', "Path", "equal 'yes' is neither true"),
     "a point of another unit": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="plant.jet_seconds" name="a"/></Path>',
-        "Point", "y plant.jet_seconds: its unit is s, required is rad",
+        "Point", "y plant.jet_seconds: its unit is s, but rad is required",
     ),
     "a point without name": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="{SPACE}"/></Path>', "Point", "no name"
@@ -263,7 +263,7 @@ WRONG = {
     ),
     "a curve of a vector": ('<Curve signals="plant.angles"/>', "Curve", "signals plant.angles: no such scalar"),
     "curves of two units": (
-        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, required is rad"
+        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, but rad is required"
     ),
     "labels of another number": (
         f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give one label"

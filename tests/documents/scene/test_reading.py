@@ -156,13 +156,13 @@ WRONG = {
     "unknown shape": (ROBOT, '<Body name="x" shape="bx" size="1 2 3"/>', "Body", "shape bx is unknown"),
     "no such position": (ROBOT, body('position="robot.place"'), "Body", "position robot.place: no such signal"),
     "position of another size": (
-        ROBOT, body('position="robot.quaternion"'), "Body", "position robot.quaternion: its unit is 1, required is m"
+        ROBOT, body('position="robot.quaternion"'), "Body", "position robot.quaternion: its unit is 1, but m is required"
     ),
     "an element of a position": (
-        ROBOT, body('position="robot.position[1]"'), "Body", "position robot.position[1] has 1 elements, required are 3"
+        ROBOT, body('position="robot.position[1]"'), "Body", "position robot.position[1] has 1 elements, but 3 are required"
     ),
     "quaternion of another size": (
-        ROBOT, body('quaternion="robot.position"'), "Body", "quaternion robot.position has 3 elements, required are 4"
+        ROBOT, body('quaternion="robot.position"'), "Body", "quaternion robot.position has 3 elements, but 4 are required"
     ),
     "two attitudes": (
         ROBOT, body('quaternion="robot.quaternion" axis="robot.position"'), "Body",
@@ -170,14 +170,14 @@ WRONG = {
     ),
     "angles without a sequence": (CAPSULE, body('angles="plant.bank"'), "Body", "angles without sequence"),
     "a sequence of no axes": (
-        CAPSULE, body('angles="plant.bank" sequence="roll"'), "Body", "sequence 'roll' is not of one to three axes"
+        CAPSULE, body('angles="plant.bank" sequence="roll"'), "Body", "sequence 'roll' does not have one to three axes"
     ),
     "angles of another number": (
         CAPSULE, body('angles="plant.bank plant.attack" sequence="zyx"'), "Body",
         "angles has 2 signals, sequence 3 axes",
     ),
     "angles that are none": (
-        CAPSULE, body('angles="plant.height" sequence="z"'), "Body", "its unit is m, required is rad"
+        CAPSULE, body('angles="plant.height" sequence="z"'), "Body", "its unit is m, but rad is required"
     ),
     "wind angles without a position": (
         CAPSULE, body(WIND), "Body", "wind angles need longitude, latitude and height"
@@ -212,7 +212,7 @@ WRONG = {
         "it has 1 Jet, robot.jet_thrust has 8 elements",
     ),
     "pulses that are no times": (
-        ROBOT, body("", f'<Jets pulses="robot.impulse">{JET}</Jets>'), "Jets", "its unit is N.s, required is s"
+        ROBOT, body("", f'<Jets pulses="robot.impulse">{JET}</Jets>'), "Jets", "its unit is N.s, but s is required"
     ),
     "count without pulses": (
         ROBOT, body("", f'<Jets forces="robot.impulse" count="ranger.sample_count">{JET}</Jets>'), "Jets",
@@ -224,7 +224,7 @@ WRONG = {
     "a line from nowhere": (ROBOT, '<Line from="nobody" to="it"/>', "Line", "from nobody: no such Body or Site"),
     "a line to no ground": (ROBOT, '<Line from="it" to="ground"/>', "Line", "to ground needs a Surface"),
     "a site of another size": (
-        ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, required are 3"
+        ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, but 3 are required"
     ),
     "an arrow without a signal": (ROBOT, '<Arrow name="a" from="it"/>', "Arrow", "no signal"),
     "an arrow from nowhere": (
@@ -232,7 +232,7 @@ WRONG = {
     ),
     "an arrow along a scalar": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.impulse"/>', "Arrow",
-        "signal robot.impulse has 1 elements, required are 3",
+        "signal robot.impulse has 1 elements, but 3 are required",
     ),
     "an arrow in unknown axes": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="orbit"/>', "Arrow",
@@ -278,7 +278,7 @@ def test_everything_wrong_is_refused_with_its_line(read, tmp_path, name):
         ('up="w"', (body(),), "up 'w' is not an axis"),
         ('up="y"', ('<Surface kind="plane"/>', body()), "up y cannot be combined with a Surface, whose normal is z"),
         ('frame="inertial"', (SPHERE, body(GEOGRAPHIC)), "frame cannot be combined with longitude and latitude"),
-        ("", (SPHERE, body(GEOGRAPHIC), body(name="other")), "positions of two kinds"),
+        ("", (SPHERE, body(GEOGRAPHIC), body(name="other")), "bodies have positions of two kinds"),
         (
             "",
             (SPHERE, body(GEOGRAPHIC), '<Site name="x" position="plant.wind"/>'),

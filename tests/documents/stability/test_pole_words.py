@@ -34,7 +34,7 @@ def test_a_negative_real_pole_is_no_pair(loop):
     assert "±" in rows[0][2]
     assert "±" not in rows[1][2] + rows[2][2]
     assert rows[2][2:5] == [NONE, NONE, NONE]
-    assert "A real z below 0 is one pole, no pair" in part.note
+    assert "A real z below 0 is a single pole, not a pair" in part.note
     assert "no pair" not in modes(replace(loop, modes=(mode(0.3),))).note
 
 

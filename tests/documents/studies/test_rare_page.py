@@ -45,7 +45,7 @@ def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_pa
 def test_noise_of_one_trial_stands_in_every_section(rare_result, tmp_path):
     fixed = replace(rare_result, noise=Noise(("imu", "star"), 4, 7))
     words = text_of(page_of(fixed, tmp_path))
-    assert "Noise of imu, star: that of trial 4 in all simulations, seed 7." in words
+    assert "Noise of imu, star: noise of trial 4 in all simulations, seed 7." in words
     assert "All numbers: conditional on the noise realisation of trial 4." in words
     lead = words[words.index("Failure probability") : words.index("Failure: total")]
     assert "conditional on the noise realisation of trial 4" in lead

@@ -221,7 +221,7 @@ def test_infinite_and_wide_numbers_are_written_as_the_schema_has_them(tmp_path: 
 @pytest.mark.parametrize("number", [2**31, -(2**31) - 1])
 def test_a_start_beyond_32_bits_is_refused(number: int) -> None:
     wide = type("Wide", (Extremes,), {"__doc__": "Too wide.", "count": Parameter(number, description="count")})
-    message = f"count: starts at {number}, beyond 32 bits, the integers of FMI"
+    message = f"count: starts at {number}, beyond the 32-bit integers of FMI"
     with pytest.raises(ValueError, match=message):
         fmi3.model_description(wide, token="", origin={})
     with pytest.raises(ValueError, match=message):

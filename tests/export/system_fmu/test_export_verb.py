@@ -102,7 +102,7 @@ WRONG = {
         "--expose",
         "plant.gravity",
     ): "--expose: plant.gravity: a parameter, which is always a parameter of the FMU",
-    ("--as-fmu", "--faults", "plant.gravit"): "--faults: plant.gravit: no such connector of a component",
+    ("--as-fmu", "--faults", "plant.gravit"): "--faults: plant.gravit: no component has such a connector",
     ("--as-fmu", "--faults", "plant.initial_mass"): (
         "--faults: plant.initial_mass: a parameter that is fixed after initialisation; set it before the start by --set"
     ),
@@ -134,7 +134,7 @@ def test_wrong_calls(arguments, capsys, tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("fmus")
 def test_what_is_no_system(refusal):
-    assert "--as-fmu: analytic_guidance: not a system, and only a system can become one FMU" in refusal(
+    assert "--as-fmu: analytic_guidance: only a system can become one FMU" in refusal(
         ["export", "analytic_guidance", "--as-fmu"]
     )
 

@@ -149,7 +149,7 @@ def test_faults_outlive_a_fatal_error(tmp_path, tiny_folder):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"name": "ramp.z", "kind": "bias"}, "ramp.z: no such connector"),
+        ({"name": "ramp.z", "kind": "bias"}, "ramp.z: no component has such a connector"),
         ({"name": "ramp.y", "kind": "melt"}, "unknown kind melt; use one of override, bias, freeze"),
         ({"name": "ramp.y", "kind": "bias", "start": 2.0, "stop": 1.0}, "empty window"),
         ({"name": "ramp.y", "kind": "bias", "value": math.nan}, "not finite"),

@@ -123,7 +123,11 @@ def test_messages_are_no_formats(tmp_path, capfd):
 def test_an_array_that_cannot_be_read_back_is_reported_once(tmp_path):
     path = str(strict_fmu(tmp_path, hides_gain=True))
     settings = {"Strict.gain": [4.0, 5.0], "Strict.rounds": 3}
-    with pytest.warns(UserWarning, match=r"strict\.fmu: gain cannot be read back: whether Strict takes its") as actual:
+    with pytest.warns(
+        UserWarning,
+        match=r"strict\.fmu: gain cannot be read back, so it is not known whether "
+        r"Strict accepts",
+    ) as actual:
         flight = perilune.simulate(path, set=settings, in_process=True)
     assert len(actual) == 1
     assert flight["Strict.y"][-1].tolist() == [2.0, 1.25]
@@ -134,8 +138,8 @@ def test_a_number_that_an_fmu_changes_is_reported(tmp_path):
     flight = perilune.simulate(path, set={"Strict.rounds": 3})
     assert flight.status == "failed"
     assert (
-        "Strict.rounds: was set to 3, and its FMU has 2 after initialisation: the FMU did not accept the value"
-        in flight.message
+        "Strict.rounds: was set to 3, but has the value 2 in its FMU after initialisation: "
+        "the FMU did not accept the value" in flight.message
     )
 
 

@@ -33,11 +33,11 @@ DESCRIPTIONS = {
             "</ModelVariables>",
             '<Clock name="tick" valueReference="99" intervalVariability="triggered"/></ModelVariables>',
         ),
-        r"tick \(line \d+\): a Clock: FMUs with clocks are not supported; export the FMU without clocks",
+        r"tick \(line \d+\): is a Clock, and FMUs with clocks are not supported; export the FMU without clocks",
     ),
     "model exchange": (
         changed("<CoSimulation[^>]*/>", '<ModelExchange modelIdentifier="Strict"/>'),
-        "CoSimulation: not a co-simulation FMU: ModelExchange only; export the FMU for co-simulation",
+        "CoSimulation: not a co-simulation FMU: its interfaces are ModelExchange; export the FMU for co-simulation",
     ),
     "no type": (changed("<Int8 name=", "<Int9 name="), r"small \(line \d+\): Int9 is not a type of FMI 3.0; fix"),
     "no name": (changed(' name="early"', ""), r"Float64 \(line \d+\): no attribute name; fix"),
@@ -45,7 +45,7 @@ DESCRIPTIONS = {
         changed(' valueReference="8"', ' valueReference="x"'),
         r"early \(line \d+\), valueReference: 'x' is not a value reference",
     ),
-    "names twice": (changed('name="factor"', 'name="early"'), "early: two variables of this name"),
+    "names twice": (changed('name="factor"', 'name="early"'), "early: two variables have this name"),
     "start": (changed('start="0.5 0.25"', 'start="0.5 much"'), r"u \(line \d+\), start: 'much' is not a number"),
     "size": (
         changed('start="2" min="0" max="4"', 'start="-2"'),
@@ -73,7 +73,9 @@ def test_scheduled_execution(tmp_path):
     binary = f"binaries/{fmpy.platform_tuple}/Clocks{fmpy.sharedLibraryExtension}"
     path = write_zip(tmp_path / "Clocks.fmu", {"modelDescription.xml": CLOCKS, binary: b"a library"})
     refused(
-        "CoSimulation: not a co-simulation FMU: ScheduledExecution only; export the FMU for co-simulation", str(path)
+        "CoSimulation: not a co-simulation FMU: its interfaces are ScheduledExecution; export the FMU for "
+        "co-simulation",
+        str(path),
     )
 
 
@@ -86,8 +88,8 @@ def test_binary_for_another_platform(tmp_path):
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ({"record": ["blob"]}, "blob: a Binary, which is not recorded; name numbers"),
-        ({"record": ["text"]}, "text: a String, which is not recorded; name numbers and Booleans"),
+        ({"record": ["blob"]}, "blob: variables of type Binary are not recorded; name numbers"),
+        ({"record": ["text"]}, "text: variables of type String are not recorded; name numbers and Booleans"),
         (
             {"set": {"Strict.blob_in": "00"}},
             "Strict.blob_in: a value of type Binary cannot be set; connect it with a Binary output",
@@ -103,12 +105,12 @@ def test_binary_for_another_platform(tmp_path):
         ({"set": {"Strict.n": 3, "Strict.u[1]": 1.0}}, r"Strict.u\[3\]: u\[3\] has neither a value nor a start"),
         ({"set": {"Strict.u[3]": 1.0}}, r"Strict.u\[3\]: matches no parameter"),
         ({"set": {"Strict.u": [1, 2, 3]}}, r"3 values for the 2 elements Strict.u\[1\] \.\.\.; give 2"),
-        ({"set": {"Strict.trouble": "some"}}, "no item some in the enumeration"),
+        ({"set": {"Strict.trouble": "some"}}, "the enumeration has no item some"),
         (
             {"faults": ["Strict.small=override:200@0"]},
             "200 is not of type Integer; give a whole number from -128 to 127",
         ),
-        ({"faults": ["Strict.blob=override:1@0"]}, "Strict.blob: no such connector of a component"),
+        ({"faults": ["Strict.blob=override:1@0"]}, "Strict.blob: no component has such a connector"),
     ],
 )
 def test_options(tmp_path, options, expected):
@@ -147,7 +149,7 @@ def test_binary_to_string(tmp_path):
         connections=connection("a.blob", "b.text_in"),
     )
     path = pack(tmp_path / "t.ssp", tmp_path, document(root))
-    refused("connection a.blob -> b.text_in .*: types do not fit: Binary and String", str(path))
+    refused("connection a.blob -> b.text_in .*: types differ: Binary and String", str(path))
 
 
 def test_schema_flaws_are_notes(tmp_path):

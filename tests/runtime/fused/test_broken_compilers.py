@@ -60,7 +60,10 @@ def of(path, **options):
         ("", "the compiler wrote no library"),
         ("raise SystemExit(3)", "it ended with status 3 without a message"),
         ("import os; os.kill(os.getpid(), 9)", "it ended by SIGKILL without a message"),
-        (r"import os, sys; os.write(2, b'error: \xff\xfe'); sys.exit(1)", "the compiler refuses its C: error: "),
+        (
+            r"import os, sys; os.write(2, b'error: \xff\xfe'); sys.exit(1)",
+            "the compiler rejects the C code of the steps: error: ",
+        ),
         ("open('fused.so', 'w').write('x')", "the compiler's output is not a library"),
         (b"#!/no/such/interpreter\n", "cannot be run: No such file or directory"),
     ],
@@ -80,7 +83,7 @@ def test_refused_in_one_line(ramp, compiler, text, problem):
 def test_a_cache_that_cannot_be_written(ramp, tmp_path):
     (tmp_path / "fused").write_text("a file in place of the folder")
     with (
-        pytest.warns(UserWarning, match=r"fused: Not a directory: the cache is not used"),
+        pytest.warns(UserWarning, match=r"fused: Not a directory: "),
         Simulation(of(ramp, flavour="fused")) as simulation,
     ):
         assert simulation.fly().complete
@@ -138,7 +141,7 @@ def test_an_interruption_ends_the_compiler(ramp, compiler):
         simulation.interrupt()
         thread.join(30)
         assert not thread.is_alive()
-    assert problems == ["the compiler refuses its C: ended, since its result is no longer needed"]
+    assert problems == ["the compiler rejects the C code of the steps: ended, since its result is no longer needed"]
     assert not simulation.instances
 
 

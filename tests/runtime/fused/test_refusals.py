@@ -35,13 +35,13 @@ def test_without_a_compiler(fmus, tmp_path):
 
 def test_a_system_of_python_fmus(tiny_folder, tmp_path, refusal):
     path = pack(tmp_path / "s.ssp", tiny_folder / "python", RAMP)
-    expected = "the system has no native FMU of Perilune, whose C could be fused; leave --flavour out"
+    expected = "the system has no native FMU of Perilune that could be fused; leave --flavour out"
     assert expected in refusal(["run", str(path), "--flavour", "fused"])
 
 
 def test_c_of_another_build():
     with pytest.raises(
-        InputError, match=r"^x\.fmu: sources: its C code has another interface .*; export the FMU again"
+        InputError, match=r"^x\.fmu: sources: its C code does not have the interface .*; export the FMU again"
     ):
         component_code({"ramp.c": "int main(void) { return 0; }"}, "ramp", "k0_", "x.fmu")
     with pytest.raises(InputError, match=r"^x\.fmu: sources/fmi2_types\.h: is missing"):
@@ -59,17 +59,22 @@ def test_c_that_has_an_instance_otherwise_than_the_binary(tiny_folder, tmp_path,
     }
     monkeypatch.setattr(type(fmu), "read_sources", lambda _: wider)
     monkeypatch.setattr("perilune.analysis.runtime.fused.fuse._CODES._known", {})
-    with pytest.raises(InputError, match=r"ramp\.fmu: sources: its C has \w+ at another address than its binary"):
+    with pytest.raises(
+        InputError, match=r"ramp\.fmu: sources: the address of \w+ in its C code differs from its binary"
+    ):
         Simulation(prepared)
 
 
 @pytest.mark.parametrize(
     ("change", "refusal"),
     [
-        ({"MOST_INSTRUCTIONS": 1}, "the steps repeat after 1 communication steps only, too many for one function"),
+        (
+            {"MOST_INSTRUCTIONS": 1},
+            "the sequence of steps repeats only after 1 communication steps, too many for one function",
+        ),
         (
             {"FLAGS": ("--no-such-flag",)},
-            r"the compiler refuses its C: .*error.*no-such-flag.*; give flavour native$",
+            r"the compiler rejects the C code of the steps: .*error.*no-such-flag.*; give flavour native$",
         ),
     ],
 )

@@ -243,5 +243,5 @@ def test_what_is_refused_before_anything_flies(tmp_path, capsys, call, deed):
     for command in (["validate", str(fmu)], [*prepare, "--step", "0.25", "--stop-time", "1"]):
         assert main([*command, "--call-timeout", "1"]) == 2
         (line,) = capsys.readouterr().err.splitlines()
-        assert "odd: tested alone, with its declared values: " in line
+        assert "odd: its test alone, with its declared values, failed: " in line
     assert not (tmp_path / "out" / "manifest.json").exists()

@@ -99,7 +99,10 @@ def test_the_verdict_says_what_renews_an_fmu(tmp_path, trace):
 
 def test_processes_for_each_simulation_are_noted_once_with_reason_and_cost(tmp_path):
     fmu = coupled_fmu(tmp_path, Trace.FILES, resets=False)  # of no other test here: it would have been noted
-    note = "coupled: one process per simulation, since a second one in a process differs: its folder has changed: trace"
+    note = (
+        "coupled: one process per simulation, since a second simulation in the same process differs: "
+        "its folder has changed: trace"
+    )
     with pytest.warns(UserWarning, match=note) as noted:
         [trials(fmu, tmp_path, workers=workers) for workers in (2, 1)]
     assert len(noted) == 1

@@ -126,7 +126,7 @@ def test_validate_needs_no_end(folder, capsys, refusal):
     """EndTime is optional; `run` cannot do without."""
     written = folder(CHAIN)
     assert main(["validate", str(written)]) == 0
-    assert "no EndTime: run needs --stop-time" in " ".join(capsys.readouterr().out.split())
+    assert "EndTime is missing, so run needs --stop-time" in " ".join(capsys.readouterr().out.split())
     assert "EndTime: missing; give --stop-time" in refusal(["run", str(written)])
 
 

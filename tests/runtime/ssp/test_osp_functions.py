@@ -157,7 +157,7 @@ BOTH = signal("ramp.y", "s:in[0]") + signal("other.y", "s:in[1]")
         (of_sum(BOTH, signal("ramp.flag", "s:out")), r"flag"),
         (
             structure(RAMPS, signal("ramp.y", "v:in[0]"), functions('<VectorSum name="v" dimension="3"/>')),
-            "1 variables for a signal of 3 of v",
+            "a signal of v has 3 elements, not 1",
         ),
         (structure(RAMPS, "", functions('<LinearTransformation name="f" factor="x"/>')), "factor 'x' is not a number"),
         (

@@ -131,7 +131,7 @@ def test_what_does_not_fly(tiny_folder, tmp_path, change, expected):
         ({"variant": "other"}, "variant: an FMU alone has no variants; leave out variant"),
         ({"set": {"gain.facto": 1}}, "use one of gain.factor, gain.u"),
         ({"set": {"factor": 1}}, "use one of gain.factor, gain.u"),
-        ({"parameters": ("x.ssv",)}, "no x.ssv in the system, nor a file of this name"),
+        ({"parameters": ("x.ssv",)}, "neither the system nor the working folder has a file x.ssv"),
         ({"stop_time": 0.05}, "stop_time: 0.05: 0.05 s from the start are not a whole number of steps of 0.1 s"),
     ],
 )

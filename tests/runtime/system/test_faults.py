@@ -135,10 +135,10 @@ def test_what_a_system_can_have(network, text):
     [
         (
             "ramp.z=bias:1@1",
-            "ramp.z: no such connector of a component; the nearest of 17 known names: ramp.y",
+            "ramp.z: no component has such a connector; the nearest of 17 known names: ramp.y",
         ),
         ("ramp.start=bias:1@1", "ramp.start: a parameter that is fixed after initialisation; set it before the start"),
-        ("inner.u=bias:1@1", "inner.u: no such connector of a component"),  # it is a system's: nothing happens there
+        ("inner.u=bias:1@1", "inner.u: no component has such a connector"),  # it is a system's: nothing happens there
         (
             "free.u=bias:1@1",
             "free.u: an input that nothing is connected to; give the input a value with set free.u=VALUE",

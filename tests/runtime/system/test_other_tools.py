@@ -98,7 +98,7 @@ def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
         path = pack(tmp_path / f"{index}.ssp", tiny, document(system(mode), more=more))
         assert set(fly(path)["mode.m"]) == {7.0}
         assert [set(fly(path, set={"mode.n": item})["mode.m"]) for item in ("brake", "2", 2)] == [{2.0}] * 3
-        with pytest.raises(InputError, match=r"mode\.n: no item 3 in the enumeration; use one of brake, hover, idle"):
+        with pytest.raises(InputError, match=r"mode\.n: the enumeration has no item 3; use one of brake, hover, idle"):
             fly(path, set={"mode.n": 3})
     mode = component("mode", "mode", declared, inline("n=Real:7"))
     with pytest.raises(
@@ -140,9 +140,7 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys, refusa
 
 def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, refusal):
     (tmp_path / "set.ssv").write_text(parameter_set("ramp.start=Real:2"))
-    assert "not a system, and the option applies only to systems" in refusal(
-        ["validate", str(tmp_path / "set.ssv"), "--step", "1"]
-    )
+    assert "system options apply only to systems" in refusal(["validate", str(tmp_path / "set.ssv"), "--step", "1"])
     assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1", "--set", "ramp.start=2"]) == 0
     assert "use one of ramp.start, ramp.slope" in refusal(["validate", str(tiny / "ramp.fmu"), "--set", "ramp.star=2"])
 

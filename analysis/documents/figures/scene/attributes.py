@@ -41,7 +41,7 @@ def read_signal(
 
 def check_length(reader: SignalReader, element: etree._Element, attribute: str, signal: Signal, size: int) -> None:
     if len(signal.names) != size:
-        problem = f"{attribute} {signal.label} has {len(signal.names)} elements, required are {size}"
+        problem = f"{attribute} {signal.label} has {len(signal.names)} elements, but {size} are required"
         raise reader.signal_error(element, signal.label, problem, "name another signal")
 
 

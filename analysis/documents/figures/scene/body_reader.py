@@ -87,7 +87,7 @@ def _attitude(reader: SignalReader, element: etree._Element, position: Position 
         return None
     if len(declared) > 1:
         forms = " and ".join(names[0] for names in declared)
-        raise reader.refuse(element, f"attitudes of two kinds, {forms}", "give one of them")
+        raise reader.refuse(element, f"has attitudes of two kinds, {forms}", "give one of them")
     for name in declared[0]:
         if name not in element.attrib:
             raise reader.refuse(element, f"{declared[0][0]} without {name}", f'also write {name}="..."')
@@ -109,11 +109,13 @@ def _angles(reader: SignalReader, element: etree._Element) -> Angles:
     """Read the angles of an attitude: a vector, or scalars separated by spaces."""
     sequence, names = element.get("sequence", "").strip(), element.get("angles", "").split()
     if not 0 < len(sequence) <= 3 or not set(sequence) <= {"x", "y", "z"}:
-        raise reader.refuse(element, f"sequence {sequence!r} is not of one to three axes", 'write for instance "zyx"')
+        raise reader.refuse(
+            element, f"sequence {sequence!r} does not have one to three axes", 'write for instance "zyx"'
+        )
     if len(names) == 1:
         return Angles((read_signal(reader, element, "angles", len(sequence), RADIAN),), sequence)
     if len(names) != len(sequence):
-        problem = f"angles has {len(names)} signals, sequence {len(sequence)} axes"
+        problem = f"angles has {len(names)} signals, but sequence has {len(sequence)} axes"
         raise reader.refuse(element, problem, "give one signal for each axis, in the order of the rotations")
     signals = (reader.find_signal(element, "angles", name) for name in names)
     return Angles(

@@ -41,7 +41,9 @@ def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
     local = isinstance(bodies[0].position, Geographic)
     for body, item in zip(bodies, children["Body"], strict=True):
         if isinstance(body.position, Geographic) != local:
-            raise reader.refuse(item, "positions of two kinds", "give all bodies longitude, latitude, height, or none")
+            raise reader.refuse(
+                item, "bodies have positions of two kinds", "give all bodies longitude, latitude, height, or none"
+            )
     if local and children["Surface"] and "centre" in children["Surface"][0].attrib:
         raise reader.refuse(
             children["Surface"][0], "centre cannot be combined with longitude and latitude", "leave out centre"

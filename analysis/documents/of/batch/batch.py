@@ -99,7 +99,7 @@ def _replay_sections(content: BatchContent) -> list[Section]:
     if replays:
         nodes += [
             replay_table(replays, "termination, worst of metrics"),
-            Note("First failures of each variant, and its worst trials of metrics with a limit."),
+            Note("The first failures of each variant, and its worst trials for each metric with a limit."),
         ]
     if extremes:
         nodes.append(Group("Maximum of each metric", [replay_table(extremes, "maximum")]))

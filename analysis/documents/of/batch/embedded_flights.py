@@ -85,11 +85,13 @@ def embedded_flights(batch: CampaignResult) -> EmbeddedFlights | None:
         return None
     plotted = [name for name in plotted if all(name in each.flight.signals for each in flights)]
     traced = sum(len(rows.traced()) for rows in batch.rows.values())
-    notes.insert(0, f"{len(flights)} of {traced} trials with recorded signals, half failures where there are as many.")
+    notes.insert(
+        0, f"{len(flights)} of {traced} trials with recorded signals; half of them are failures if there are enough."
+    )
     if len(usable) > LINE_LIMIT:
         notes.append(f"Plotted are the first {LINE_LIMIT} of {len(usable)} signals.")
     if stride > 1:
-        notes.append(f"Of each, one of {stride} recorded rows and the last.")
+        notes.append(f"Plotted are one in {stride} recorded rows of each signal, and the last row.")
     return EmbeddedFlights(
         document=_document(batch.provenance, plotted, flights),
         scene=None if scene is None else flights_view(scene, flights),

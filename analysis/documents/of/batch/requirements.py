@@ -41,10 +41,10 @@ def requirement_sections(summary: Summary, campaign: Campaign) -> list[Section]:
 
 
 EXPLANATION = (
-    "Consumer's risk: the probability of k or fewer failures, k being the observed number, if the true probability "
-    "were just the required one. The requirement is met if this risk is at most 1 minus the confidence level, and not "
-    "met if k or more failures are as unlikely if the true probability were only the required one. Additional trials "
-    "required: with 0, 1 and 2 further failures."
+    "Consumer's risk: probability of at most k failures, where k is the observed number, if the true probability "
+    "equals the required probability. The requirement is met if this risk is at most 1 minus the confidence "
+    "level, and not met if, under the same assumption, k or more failures are as improbable. Additional "
+    "trials required: numbers of trials for 0, 1 and 2 further failures."
 )
 EARLY = " The campaign was allowed to end early; risks and verdicts account for all interim analyses."
 

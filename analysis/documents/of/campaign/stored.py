@@ -18,7 +18,7 @@ def stored_document(results: OpenedResults) -> Document:
     words = [
         Text(f"{PurePath(results.provenance['campaign']).name}: {trials}"),
         Text(folder),
-        Text(f"a trial again: perilune replay {shlex.quote(folder)} TRIAL{named}"),
+        Text(f"replay of a trial: perilune replay {shlex.quote(folder)} TRIAL{named}"),
     ]
     return Document(
         results.provenance["system"], [*words, Table(("column", "unit", "meaning"), rows)], [], results.provenance

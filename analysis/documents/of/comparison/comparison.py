@@ -78,7 +78,7 @@ def _replay_section(content: ComparisonContent) -> list[Section]:
     if not content.replays:
         return []
     note = Note([
-        "The first failures of each variant, and its worst trials of metrics with a limit; replays need only the "
+        "The first failures of each variant, and its worst trials for each metric with a limit; replays need only the "
         "campaign's folder and are bit-identical. ", Code("--output F.csv"), " keeps all signals, ",
         Code("--report F.html"), " writes the page of the run.",
     ])  # fmt: skip

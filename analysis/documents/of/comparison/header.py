@@ -62,8 +62,8 @@ def _difference_nodes(content: ComparisonContent) -> list[Node]:
     pairs = "pair with the reference" if sentences.others else "pair"
     equal = "" if sentences.first else f"No {pairs} differs significantly in {', '.join(sentences.tested)}. "
     note = (
-        f"A {MINUS} B: success in points, metrics as the median of differences trial by trial, with 95 % intervals. "
-        "Significant: at 5 % in all pairs and quantities together (Holm)."
+        f"A {MINUS} B: success in percentage points, metrics as the median of the differences of each trial, "
+        "with 95 % intervals. Significant: at the 5 % level for all pairs and quantities together (Holm)."
     )
     return [*nodes, Note(equal + note)]
 

@@ -67,8 +67,8 @@ def metric_section(content: ComparisonContent) -> Section:
     nodes: list[Node] = [Missing("the campaign declares only metrics that are rates")]
     if content.comparison.metrics:
         note = (
-            "Percentiles are order statistics, infinite values included. The other columns, and the number of trials, "
-            "are of finite values."
+            "Percentiles are order statistics, infinite values included. The other columns and the number of "
+            "trials refer to finite values."
         )
         nodes = [*_metric_tables(content, variant_rows(content.comparison.summary)), Note(note)]
     return Section("Metrics of the successful trials", nodes, is_folded=True)
@@ -135,8 +135,9 @@ def _metric_nodes(content: ComparisonContent) -> list[Node]:
     over_all = metric_pairs(content.comparison, content.paired, successful=False)
     has_others = bool(groups[0].others)
     note = (
-        f"Median: of the differences A {MINUS} B; of an even number the lower of the two in the middle, as all "
-        "quantiles here are values of trials. Its interval lies between order statistics of the differences and "
+        f"Median: of the differences A {MINUS} B; of an even number of differences the lower of the two middle "
+        "values, since all quantiles here are values of trials. Its interval lies between order statistics "
+        "of the differences and "
         "assumes nothing about their distribution; it needs six trials. p: the sign test, ties left out."
     )
     return [

@@ -39,7 +39,7 @@ def landing_bound_document(study: LandingStudy, file: Path | None = None) -> Doc
         *([] if file is None else [Text(f"stored: {file}")]),
     ]
     path = Note(
-        "Dot: the end. Arrows: thrust at even times against the local horizontal, none where the engine is off."
+        "Dot: end. Arrows: thrust relative to the local horizontal at equally spaced times while the engine is on."
     )
     sections = [
         Section("Path", [Figures(partial(bound_figure, study, series)), path]),
@@ -70,7 +70,7 @@ def _checks(study: LandingStudy) -> list[Sequence[Inline]]:
         propellant = study.direct.propellant_fraction * study.vehicle.mass
         sentences.append(
             [
-                "direct method, in which nothing is convex: ", Quantity(propellant, "kg", 6), " in ",
+                "direct method, without the convex form: ", Quantity(propellant, "kg", 6), " in ",
                 Quantity(study.direct.duration, "s", 5), ", ", Quantity(propellant - study.propellant, "kg", 2),
                 " compared with the bound",
             ]

@@ -25,11 +25,11 @@ def transfer_document(study: HoverStudy) -> Document:
     series = plan_series(study)
     legend = [LegendEntry(one.look, [one.name]) for one in series]
     path = Note(
-        "From the start at 0, 0; dot: the end. Arrows: thrust of the simplified programme at even times, longer at "
-        "full throttle."
+        "The start is at 0, 0; dot: end. Arrows: thrust of the simplified programme at equally spaced times, "
+        "longer at full throttle."
     )
     others = Note(
-        "Line: simplified programmes of this vehicle; where it is broken there is none. Marks: the plans above, in "
+        "Line: simplified programmes of this vehicle, with gaps where none exists. Marks: the plans above, in "
         "their colours."
     )
     sections = [
@@ -127,8 +127,9 @@ def _limits(study: HoverStudy) -> Note:
     missing = ", ".join(name for name, plan in plans if plan is None)
     margins = ", the control margins" if study.margins else ""
     return Note(
-        f"The programme and the true optimum keep the plan's throttle and angular acceleration{margins}; the bound has "
-        "all of the engine's thrust in any direction." + (f" Not computed: {missing}." if missing else "")
+        f"The programme and the true optimum observe the plan's limits of throttle and angular "
+        f"acceleration{margins}; the bound may use the engine's full thrust in any direction."
+        + (f" Not computed: {missing}." if missing else "")
     )
 
 

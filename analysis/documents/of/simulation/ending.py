@@ -14,11 +14,12 @@ from .figures.limits import LimitVerdict, evaluate, limit_lines
 
 REMEDIES = {
     "nonfinite": "see the signals that lead to it with `output`",
-    "interrupted": "the files hold the simulation until then",
-    "timed_out": "the files hold the simulation until then; give a longer limit, or see the slow step with `log`",
-    "crashed": "the files hold the simulation until then; see the FMU's messages with `log`",
-    "hung": "the files hold the simulation until then; see the FMU's messages with `log`",
-    "out_of_memory": "the files hold the simulation until then; give more memory with `memory`",
+    "interrupted": "the files contain the simulation up to this time",
+    "timed_out": "the files contain the simulation up to this time; give a longer limit, or see the slow step "
+    "with `log`",
+    "crashed": "the files contain the simulation up to this time; see the FMU's messages with `log`",
+    "hung": "the files contain the simulation up to this time; see the FMU's messages with `log`",
+    "out_of_memory": "the files contain the simulation up to this time; give more memory with `memory`",
 }
 
 
@@ -40,7 +41,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaratio
         remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
         lines.append(f"{' '.join(result.message.split())}; {remedy}")
     elif _is_cut_off(prepared, result):
-        lines.append(f"{FINISHED} was not true before the stop time, {result.time[-1]:g} s; give `stop_time`")
+        lines.append(f"{FINISHED} was not true before the stop time, {result.time[-1]:g} s; give a later `stop_time`")
     for figure in figures if result.complete else ():
         if isinstance(figure, LimitsFigure):
             named = {

@@ -177,7 +177,7 @@ def _scene(figures: Sequence[FigureDeclaration], result: FlightResult) -> Sectio
 
 def _parameters(parameters: Mapping[str, float | str]) -> list[Node]:
     if not parameters:
-        return [Missing("no parameter was set; all have their FMU defaults")]
+        return [Missing("no parameter was set; all parameters have their FMU defaults")]
     others = "All other parameters have their FMU defaults."
     return [
         Note(f"Values set by the system description, parameter sets and options, in SI units. {others}"),

@@ -18,16 +18,16 @@ def order_sentences(report: StabilityStudy) -> list[str]:
     if orders is None:
         return []
     sentences = [
-        f"direct dependencies of outputs on inputs are not declared by {orders.fmus}: assumed none, and stepped with "
-        "the inputs of the step's start"
+        f"direct dependencies of outputs on inputs are not declared by {orders.fmus}: none are assumed, and "
+        "steps use inputs from the start of the step"
     ]
     if orders.without:
         cannot = f"{', '.join(orders.without)} cannot have feedthrough{' as well' if orders.direct else ''}"
         sentences.append(f"{cannot}, which would close an algebraic loop at {'; '.join(orders.cuts)}")
     if orders.report is not None:
         sentences.append(
-            f"as feedthrough: {', '.join(orders.direct)} stepped with the inputs of the step's end; what an FMU makes "
-            "of its inputs within a step lies between the two"
+            f"with feedthrough: steps of {', '.join(orders.direct)} use inputs from the end of the step; the "
+            "true behaviour of an FMU within a step lies between the two orders"
         )
         sentences += [
             f"with feedthrough {item.what} {item.name} at {item.point} is not studied: {item.reason}"

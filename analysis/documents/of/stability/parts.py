@@ -160,8 +160,8 @@ def modes(loop: LoopReport) -> Part:
     note = "A conjugate pair is one row, with ±."
     if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
         note += (
-            " A real z below 0 is one pole, no pair: it changes its sign with every sample and shrinks to |z| in each, "
-            f"so s = ln(z)/T, damping and frequency are left out ({NONE})."
+            " A real z below 0 is a single pole, not a pair: its response changes sign with every sample and is "
+            "multiplied by |z|, so s = ln(z)/T, damping and frequency are left out ({NONE})."
         )
     return Part("modes", "Modes", Table([*numbers(*sizes), "kind", *numbers(*shares)], rows), note, rows="modes")
 
@@ -189,10 +189,11 @@ def dispersion_rows(dispersion: Dispersion) -> Part:
     heads: list[str | Head] = ["margin", *numbers(*LEVELS, f"trial {dispersion.worst}, the worst")]
     counted = f"{dispersion.unstable} of {dispersion.trials} trials are unstable"
     unstable = counted if dispersion.unstable else "all trials are stable"
-    radius = ", of the unstable ones the largest spectral radius" if dispersion.unstable else ""
+    radius = ", or among unstable trials the largest spectral radius" if dispersion.unstable else ""
     note = (
-        f"Campaign {dispersion.campaign}: {unstable}. Levels are margins of single trials, over all of them; an "
-        "unstable trial counts below every number, one without a crossing above. The worst trial has the least disk "
+        f"Campaign {dispersion.campaign}: {unstable}. Levels are order statistics of the margins of all trials; "
+        "an unstable trial counts as below every number, and a trial without a crossing as above. The worst "
+        "trial has the least disk "
         f"margin{radius}."
     )
     return Part("dispersed", "Dispersed", Table(heads, rows), note, dispersion.replay)

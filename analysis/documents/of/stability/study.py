@@ -146,7 +146,8 @@ def _unstudied_nodes(report: StabilityStudy) -> list[Node]:
 
 def _margin_nodes(report: StabilityStudy) -> list[Node]:
     nearest = Note(
-        "The gain margin is the one nearest to 0 dB, upwards or downwards, the phase margin the one nearest to 0. "
+        "The gain margin is the upper or lower margin nearest to 0 dB, and the phase margin is the margin "
+        "nearest to 0. "
         "Delay margins in samples count the loop's sample period. One loop is opened at a time, all others closed. "
         "Tightest: least reserve relative to its limit."
     )

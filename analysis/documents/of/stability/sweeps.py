@@ -19,8 +19,8 @@ def sweep_nodes(report: StabilityStudy) -> list[Node]:
             lambda: [sweep_figure(sweep, report, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)]
         ),
         Note(
-            "Dashed: limits. Dotted: where they are crossed. Hatched: unstable. A gain margin below 0 dB is one "
-            "downwards, a phase margin below 0 a lead; a gap has none."
+            "Dashed: limits. Dotted: where they are crossed. Hatched: unstable. A gain margin below 0 dB is a "
+            "lower margin, a phase margin below 0 is a phase lead, and gaps have no margin."
         ),
         *(
             Group(

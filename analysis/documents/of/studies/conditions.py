@@ -59,7 +59,7 @@ def _noise(noise: Noise, random: str) -> str:
         return "no component draws random numbers"
     names = ", ".join(noise.components)
     if noise.is_held:
-        return f"noise of {names}: that of trial {noise.trial} in all simulations, seed {noise.seed}"
+        return f"noise of {names}: noise of trial {noise.trial} in all simulations, seed {noise.seed}"
     return f"noise of {names}: {random}"
 
 

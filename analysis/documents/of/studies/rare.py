@@ -50,10 +50,11 @@ def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:
                 level_table(study),
                 Figures(partial(exceedance_figures, study)),
                 Note(
-                    "Probability: of the next level, given this one; the last is that of the failure. Accepted: the "
-                    "fraction of candidates that stay in the level, of moves of the dispersed parameters and of moves "
-                    "of the noise, which renew one component's at a time; the lowest of a single component. Where "
-                    "fewer than one noise move in twenty of any component is accepted, levels end. The correlation "
+                    "Probability: conditional probability of the next level given this level, or of the failure "
+                    "in the last row. Accepted: fraction of candidates that stay in the level, for moves of "
+                    "the dispersed parameters and for moves of the noise, each of which renews the noise "
+                    "of one component; for noise, the lowest fraction of any component. Levels end "
+                    "when a component accepts fewer than one noise move in twenty. The correlation "
                     "gamma of samples in a chain and the coefficient of variation c.o.v. are those of Au and Beck "
                     "(2001), level by level; the interval above counts the correlation from level to level, too."
                 ),
@@ -112,7 +113,7 @@ def _against_monte_carlo(study: RareOutcome) -> list[Node]:
         Figures(partial(interval_figures, study)),
         Table(("estimate", "simulations", "from", "to"), rows),
         Note(
-            "Of Monte Carlo: Clopper and Pearson's interval for the number of failures expected at this probability, "
+            "Monte Carlo: Clopper and Pearson's interval for the number of failures expected at this probability, "
             "with as many simulations as this study took and with as many as give the same coefficient of variation. "
             "An arrow: from 0."
         ),
@@ -150,7 +151,7 @@ def _design_nodes(study: RareOutcome) -> list[Node]:
         return [Text("no simulation failed")]
     noise = ""
     if study.noise.sources:
-        noise = " It leaves the noise out; the noise of a component is that of the trial whose number stands there."
+        noise = " The distance does not include the noise; numbers of components name the trial whose noise they have."
     return [
         Figures(partial(design_figures, study), DESIGN_LEGEND),
         design_table(study),

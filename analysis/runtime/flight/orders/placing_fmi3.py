@@ -81,8 +81,8 @@ class TransferPlacing:
                 start = slots.settings.variables.get((component, variable.name), variable.start)
                 if start is None and not self._exchanged.is_set(name):
                     problem = (
-                        "has no connection, value or start, although other elements of its array do, "
-                        "and FMI 3.0 sets arrays whole"
+                        "has no connection, value or start, although other elements of its array do: FMI 3.0 "
+                        "sets only complete arrays"
                     )
                     raise InputError(
                         self._network.file, name, problem, f"connect this element, or give `set` {name}=VALUE"

@@ -53,7 +53,7 @@ class TransformedSum:
 
     def _check(self, points: list[Point]) -> list[Point]:
         if len(points) != self.dimension:
-            problem = f"{len(points)} variables for a signal of {self.dimension} of {self.name}"
+            problem = f"a signal of {self.name} has {self.dimension} elements, not {len(points)}"
             raise FunctionError(problem, "connect one variable for each element of the signal")
         return points
 

@@ -194,8 +194,8 @@ class _StructureReader:
         """Connect two variables, or the variables of two groups pairwise in the order of their model descriptions."""
         sides = [self.points(end) for end in ends]
         if len(sides[0]) != len(sides[1]):
-            problem = f"groups of {len(sides[0])} and {len(sides[1])} variables"
-            raise self.refuse(connection, problem, "connect groups of one kind")
+            problem = f"connects groups of {len(sides[0])} and {len(sides[1])} variables"
+            raise self.refuse(connection, problem, "connect groups of the same kind")
         for start, stop in zip(*sides, strict=True):
             self.connect([start], stop, IDENTITY, connection.sourceline)
 

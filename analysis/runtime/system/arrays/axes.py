@@ -98,7 +98,7 @@ class FrameReader(AnnotationReader):
         """Raise an error unless there is exactly one name for each element of a vector."""
         if len(names) != len(members):
             problem = (
-                f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
+                f"{attribute} has {len(names)} names, but {members[0].removesuffix('[1]')} has {len(members)} elements"
             )
             raise self.refuse(element, problem, "write one name for each element")
 

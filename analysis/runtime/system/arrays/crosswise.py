@@ -34,7 +34,7 @@ def _notes(pairs: list[tuple[Index, Index, NodeLink]]) -> Iterator[str]:
     for target, source, link in () if straight is None or is_in_order else pairs:
         if target != source:
             others = f"{straight.source.name} -> {straight.target.name}" if straight else ""
-            yield f"{link.where}: connects different elements, while {others} connects equal ones"
+            yield f"{link.where}: connects elements of different indices, while {others} connects equal indices"
 
 
 def _index(text: str) -> Index:

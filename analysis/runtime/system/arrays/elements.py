@@ -73,7 +73,7 @@ def _connections(description: SystemDescription, shapes: Shapes, path: str, conn
     ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
     if part != other:
         problem = f"connects {text_of(part)} with {text_of(other)}"
-        remedy = "connect arrays of one shape, or their elements by startIndices and endIndices"
+        remedy = "connect arrays of the same shape, or their elements by startIndices and endIndices"
         raise InputError(description.file, connection.where, problem, remedy)
     if starts == [connection.start] and ends == [connection.end]:
         return [connection]

@@ -49,7 +49,7 @@ class Shapes:
         self._infer_sizes(shapes)
         for name, shape in shapes.items():
             if None in shape:
-                problem = f"dimension {shape.index(None) + 1} has no size, neither here nor at the other ends"
+                problem = f"dimension {shape.index(None) + 1} has no size, neither here nor at a connected end"
                 raise InputError(description.file, declared[name].at(name), problem, "write size or sizeConnector")
         self.known: dict[str, Shape] = {name: tuple(each or 0 for each in shape) for name, shape in shapes.items()}
         ARRAY_ELEMENTS.check(sum(math.prod(shape) for shape in self.known.values()), description.file, "Dimension")
@@ -61,7 +61,7 @@ class Shapes:
     def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
         """Return the error for an array's element that is declared as a connector, too."""
         where = second.at(path + name)
-        return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
+        return InputError(self.description.file, where, f"is also declared in line {first.line}", "remove one")
 
     def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
         """Return the shape of an array in its component's FMU. Raises InputError if a different shape is declared."""
@@ -83,7 +83,7 @@ class Shapes:
             stated not in (None, size) for stated, size in zip(shape, actual, strict=True)
         ):
             size = " x ".join("?" if each is None else str(each) for each in shape)
-            problem = f"has {text_of(actual)} in {fmu.label}, {size} here"
+            problem = f"has {text_of(actual)} in {fmu.label}, but {size} here"
             raise InputError(self.description.file, where, problem, "correct its Dimensions or use another FMU")
         return actual
 

@@ -18,7 +18,7 @@ def convert_units(network: Network) -> None:
         if link.keeps_number or source.unit is None or target.unit is None:
             continue
         if not source.unit.is_convertible(target.unit):
-            problem = f"units do not fit: {source.unit.name} and {target.unit.name}"
+            problem = f"units are not convertible: {source.unit.name} and {target.unit.name}"
             raise network.refuse(link.where, problem, "correct the unit of one end")
         for node in (source, target):
             check_offset(network, node, source.unit, target.unit, network.file, link.where)
@@ -26,8 +26,8 @@ def convert_units(network: Network) -> None:
         if _disagree(source.unit, target.unit) and connection not in noted:
             noted.add(connection)
             relative, other = (source, target) if source.unit.is_relative else (target, source)
-            problem = f"{relative.name} is a difference (relativeQuantity), {other.name} is not"
-            network.notes.append(f"{link.where}: {problem}: converted without the offsets of their units")
+            problem = f"{relative.name} is a difference (relativeQuantity), but {other.name} is not"
+            network.notes.append(f"{link.where}: {problem}; values are converted without the offsets of the units")
         link.transformation = link.transformation.after_units(source.unit.conversion_to(target.unit))
 
 

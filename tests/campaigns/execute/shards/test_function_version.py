@@ -40,7 +40,7 @@ def test_shards_are_not_simulated_with_other_functions(folder, version, capsys):
     capsys.readouterr()
     assert main(["shard", str(folder), "0"]) == 2
     error = capsys.readouterr().err
-    assert f"{folder}: {FIELD}: {version}, this perilune has {VERSION}" in error
+    assert f"{folder}: {FIELD}: prepared with elementary functions {version}, but this perilune has {VERSION}" in error
     assert error.count("\n") == 1
     assert not list((folder / "trials").glob("*.parquet"))
 

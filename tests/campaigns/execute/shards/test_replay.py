@@ -249,7 +249,11 @@ def test_an_output_that_the_campaign_does_not_read_may_overflow(tmp_path, monkey
     options = {"stop_time": 4.0, "step": 1.0}
     batch = perilune.batch("growing.fmu", "reads_y.toml", workers=1, output="out", **options)
     assert {status for trials in batch.trials.values() for status in trials.statuses} == {"stop_time"}
-    with pytest.warns(UserWarning, match=r"growing\.z .*; omitted, since the campaign does not use it"):
+    with pytest.warns(
+        UserWarning,
+        match=r"growing\.z .*; this signal is not recorded, since the campaign does "
+        r"not use it",
+    ):
         actual = perilune.replay("out", 1)
     assert (actual.status, actual.differences, actual.metrics) == ("stop_time", (), {"last": 4.0})
     assert actual["growing.y"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
@@ -265,5 +269,6 @@ def test_a_success_that_violates_limits_says_who_judges(tmp_path, capsys):
     lines = capsys.readouterr().err.splitlines()
     assert any("limits violated: " in line for line in lines)
     assert lines[-1].endswith(
-        ": trial 0: a success of the campaign: flight_time > 0 is met; the lines above are of the system's description"
+        ": trial 0: a success of the campaign, since flight_time > 0 is met; "
+        "the lines above come from the system's description"
     )

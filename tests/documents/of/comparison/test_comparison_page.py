@@ -50,7 +50,7 @@ def test_every_section_and_figure_is_there(page):
     assert text.count("12 of each") == 1
     assert text.count("Not judged: no requirements declared") == 1
     assert text.count("they contain 98.9 % of a bivariate normal distribution") == 1
-    assert "points to the farthest trial or ellipse outside, and has no scale" in text
+    assert "points to the farthest trial or ellipse outside of the panel" in text
     assert "Command of each compared batch" not in text  # without manifests
 
 

@@ -24,8 +24,8 @@ def test_what_is_not_recorded_is_said_and_not_drawn(tmp_path):
     assert lines(page) == [
         "No trajectories and no commands over time: no flight has a trace; give the campaign's [record] the keys "
         "every, signals and trials.",
-        "No propellant: no metric is in kg, and [record] final does not keep a mass.",
-        "No dispersion of the final position and velocity: [record] final does not keep its three elements.",
+        "No propellant: no metric is in kg, and [record] final does not contain a mass.",
+        "No dispersion of the final position and velocity: [record] final does not contain its three elements.",
         "Nothing is recorded over time.",
         "No normalised estimation errors: no metric's name ends in _over_sigma.",
     ]

@@ -46,7 +46,7 @@ def test_who_refuses_to_be_set_again_is_not_asked_to(tmp_path):
     for _ in range(2):
         assert closed_form(fly(path, set=GIVEN), RATE)
     result = fly(odd_system(tmp_path, REFUSES_AGAIN=True, IGNORES_GAIN=True), set=GIVEN)
-    assert "odd.gain: was set to 3.3, and its FMU has 2.0" in result.message
+    assert "odd.gain: was set to 3.3, but has the value 2.0 in its FMU" in result.message
 
 
 def test_single_precision_is_no_loss(tmp_path):
@@ -58,11 +58,11 @@ def test_single_precision_is_no_loss(tmp_path):
 @pytest.mark.parametrize(
     ("quirk", "name", "words"),
     [
-        ("IGNORES_GAIN", "gain", "was set to 3.3, and its FMU has 2.0"),
-        ("IGNORES_COUNT", "count", "was set to 4, and its FMU has 1"),
-        ("IGNORES_COUNT", "on", "was set to True, and its FMU has False"),
-        ("IGNORES_COUNT", "mode", "was set to 7, and its FMU has 1"),
-        ("IGNORES_WORD", "word", "was set to three, and its FMU has one"),
+        ("IGNORES_GAIN", "gain", "was set to 3.3, but has the value 2.0 in its FMU"),
+        ("IGNORES_COUNT", "count", "was set to 4, but has the value 1 in its FMU"),
+        ("IGNORES_COUNT", "on", "was set to True, but has the value False in its FMU"),
+        ("IGNORES_COUNT", "mode", "was set to 7, but has the value 1 in its FMU"),
+        ("IGNORES_WORD", "word", "was set to three, but has the value one in its FMU"),
     ],
 )
 def test_what_an_fmu_does_not_take_ends_the_run_by_name(tmp_path, capsys, quirk, name, words):
@@ -84,7 +84,8 @@ def test_calculated_values_and_connected_inputs_are_not_asked_for(tiny_folder, t
     parts = component("ramp", "ramp", "output y Real m"), component("odd", "odd", "input u Real; output y Real")
     path = pack(tmp_path / "s.ssp", tmp_path, document(system(*parts, connections=connection("ramp.y", "odd.u"))))
     (tmp_path / "u.ssv").write_text(
-        '<ssv:ParameterSet version="1.0" name="u" xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">'
+        '<ssv:ParameterSet version="1.0" name="u" '
+        'xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">'
         '<ssv:Parameters><ssv:Parameter name="odd.u"><ssv:Real value="9"/></ssv:Parameter></ssv:Parameters>'
         "</ssv:ParameterSet>"
     )
@@ -101,7 +102,7 @@ def test_parameters_of_the_system_are_read_back_too(tmp_path):
     for quirk in ("LOSES_EARLY", "IGNORES_GAIN"):
         odd_fmu(tmp_path, **{quirk: True})
         result = fly(pack(tmp_path / "s.ssp", tmp_path, document(root)))
-        assert quirk == "LOSES_EARLY" or "odd.gain: was set to 4.0, and its FMU has 2.0" in result.message
+        assert quirk == "LOSES_EARLY" or "odd.gain: was set to 4.0, but has the value 2.0 in its FMU" in result.message
         assert quirk == "IGNORES_GAIN" or closed_form(result, 4.0 * 0.5 + 2.0)
 
 
@@ -110,7 +111,9 @@ def test_parameters_of_the_system_are_read_back_too(tmp_path):
 def test_what_cannot_be_read_back_is_said_once(tmp_path, quirk, status):
     path = odd_system(tmp_path, **{quirk: status})
     name = quirk.split("_")[1].lower()
-    with pytest.warns(UserWarning, match=f"odd.fmu: {name} cannot be read back: whether odd takes its value") as actual:
+    with pytest.warns(
+        UserWarning, match=f"odd.fmu: {name} cannot be read back, so it is not known whether odd accepts its"
+    ) as actual:
         assert closed_form(fly(path, set=GIVEN), RATE)
     assert len(actual) == 1
     with warnings.catch_warnings():

@@ -98,11 +98,11 @@ SCALAR = component("scalar", "ramp", "output y Float64 m")
 REFUSED = {
     "another size than the FMU's": (
         {"elements": [component("three", "three", "output y(4) Float64 m")]},
-        r"three\.y \(line \d+\): has 3 elements in .*, 4 here",
+        r"three\.y \(line \d+\): has 3 elements in .*, but 4 here",
     ),
     "another number of dimensions": (
         {"elements": [component("grid", "grid", "output y(6) Float64 m")]},
-        r"grid\.y \(line \d+\): has 2 x 3 elements in .*, 6 here",
+        r"grid\.y \(line \d+\): has 2 x 3 elements in .*, but 6 here",
     ),
     "no array of the FMU": (
         {"elements": [component("three", "three", "output count(3) Int32")]},
@@ -114,7 +114,7 @@ REFUSED = {
     ),
     "a size of nobody": (
         {"elements": [THREE], "declared": "input in(?) Float64 m"},
-        r"in \(line \d+\): dimension 1 has no size, neither here nor at the other ends",
+        r"in \(line \d+\): dimension 1 has no size, neither here nor at a connected end",
     ),
     "a vector to a matrix": (
         {"elements": [THREE, GRID_GAIN], "connections": connection("three.y", "other.u")},
@@ -163,7 +163,7 @@ REFUSED = {
     ),
     "an element of a name of its own": (
         {"elements": [THREE], "declared": "input in(2) Float64 m; input in[1] Float64 m"},
-        r"in\[1\] \(line \d+\): declared in line \d+, too",
+        r"in\[1\] \(line \d+\): is also declared in line \d+",
     ),
 }
 

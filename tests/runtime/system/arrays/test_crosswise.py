@@ -23,7 +23,7 @@ def notes(tmp_path, tiny, pairs):
     files = {"SystemStructure.ssd": ssd, "resources/three.fmu": (tiny / "three.fmu").read_bytes()}
     (check,) = perilune.validate(write_zip(tmp_path / "s.ssp", files), open_inputs="start")
     assert check.problems == ()
-    return [note for note in check.notes if "connects different elements" in note]
+    return [note for note in check.notes if "connects elements of different indices" in note]
 
 
 @pytest.fixture(scope="module")
@@ -64,10 +64,10 @@ class Three(Block):
 def test_elements_that_go_crosswise_are_noted(tmp_path, three, pairs, crosswise):
     actual = notes(tmp_path, three, pairs)
     assert [note.partition("connection ")[2].partition(" (")[0] for note in actual] == crosswise
-    assert all(re.search(r"while a.y\[(\d)\] -> b.u\[\1\] connects equal ones", note) for note in actual)
+    assert all(re.search(r"while a.y\[(\d)\] -> b.u\[\1\] connects equal indices", note) for note in actual)
 
 
 @pytest.mark.usefixtures("fmus")
 def test_no_shipped_system_goes_crosswise():
     for check in perilune.validate(*system_names()):
-        assert not [note for note in check.notes if "connects different elements" in note]
+        assert not [note for note in check.notes if "connects elements of different indices" in note]

@@ -93,5 +93,5 @@ def test_an_enumeration_is_connected_with_every_kind_of_number(declared: str, tm
     for given, total in (("HIGH", 15.0), (5, 15.0), ("LOW", 12.0)):
         flight = perilune.simulate(path, set={"chooser.wanted": given})
         assert flight.signals["adder.total"][-1] == total
-    with pytest.raises(ValueError, match="no item 3 in the enumeration; use one of HIGH, LOW"):
+    with pytest.raises(ValueError, match="the enumeration has no item 3; use one of HIGH, LOW"):
         fly(path, set={"chooser.wanted": 3})

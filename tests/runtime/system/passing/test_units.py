@@ -109,7 +109,9 @@ def test_ends_that_disagree(arrival):
     number, notes = arrival(RELATIVE, "K", (2, 3))
     assert number == 10.0
     assert [note.partition(" (line")[0] for note in notes] == ["connection a.y -> b.u"]
-    assert "a.y is a difference (relativeQuantity), b.u is not: converted without the offsets" in notes[0]
+    assert (
+        "a.y is a difference (relativeQuantity), but b.u is not; values are converted without the offsets" in notes[0]
+    )
     assert arrival("K relativeQuantity=true", "K") == (10.0, [])  # no offset, no question
 
 
@@ -144,7 +146,7 @@ def test_connectors_of_systems(fmu, packed):
 
 
 def test_base_units(arrival):
-    with pytest.raises(InputError, match=r"connection a\.y -> b\.u \(line \d+\): units do not fit: m and K"):
+    with pytest.raises(InputError, match=r"connection a\.y -> b\.u \(line \d+\): units are not convertible: m and K"):
         arrival("m", "K")
     assert arrival("J quantity=Energy", "N.m quantity=Torque")[0] == 10.0
 
@@ -160,7 +162,7 @@ def test_names_of_units(arrival):
 def test_no_base_units(arrival):
     assert arrival("EUR", "EUR")[0] == 10.0
     for other in ("USD", "1"):
-        with pytest.raises(InputError, match=f"units do not fit: EUR and {other}"):
+        with pytest.raises(InputError, match=f"units are not convertible: EUR and {other}"):
             arrival("EUR", other)
 
 
@@ -189,7 +191,7 @@ def test_whose_definition(arrival, fmu, packed):
     fmu("a", y="m")
     inner = component("a", "a", "output y Real m")
     other = UNITS.replace('name="m"><ssc:BaseUnit m="1"', 'name="m"><ssc:BaseUnit factor="1000" m="1"')
-    with pytest.raises(InputError, match=r"a\.y \(line \d+\): unit is m \(m\) in .*, m \(1000 m\) here"):
+    with pytest.raises(InputError, match=r"a\.y \(line \d+\): its unit is m \(m\) in .*, but m \(1000 m\) here"):
         fly(packed(inner, units=other))
     entries = f'<ssb:DictionaryEntry name="x"><ssc:Real unit="m"/></ssb:DictionaryEntry>{other}'.replace("ssd:", "ssb:")
     content = f'<ssb:SignalDictionary version="1.0">{entries}</ssb:SignalDictionary>'
@@ -202,7 +204,7 @@ def test_whose_definition(arrival, fmu, packed):
 
 
 def test_connector_and_variable(arrival):
-    with pytest.raises(InputError, match=r"a\.y \(line \d+\): unit is degC in .*a\.fmu, K here"):
+    with pytest.raises(InputError, match=r"a\.y \(line \d+\): its unit is degC in .*a\.fmu, but K here"):
         arrival("degC", "K", ends=("output y Real K", "input u -"))
     assert arrival(RELATIVE, "degC", ends=("output y Real K", "input u -"))[0] == 10.0
     assert arrival("Cel", "K", ends=("output y Real degC", "input u -"))[0] == 283.15

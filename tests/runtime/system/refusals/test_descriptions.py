@@ -37,7 +37,7 @@ TABLE = {
     ),
     "units that do not convert": (
         system(component("angle", "angle", "output y Real rad"), GAIN, connections=connection("angle.y", "gain.u")),
-        ["angle.y -> gain.u", "units do not fit: rad and m", "correct the unit"],
+        ["angle.y -> gain.u", "units are not convertible: rad and m", "correct the unit"],
     ),
     "types that do not convert": (
         system(RAMP, GAIN, connections=connection("ramp.flag", "gain.u")),
@@ -76,7 +76,7 @@ TABLE = {
         system(RAMP, GAIN, connections=connection("ramp.yy", "gain.u")),
         ["ramp declares no connector yy", "use one of"],
     ),
-    "two elements of one name": (system(RAMP, RAMP), ["ramp", "two elements with this name"]),
+    "two elements of one name": (system(RAMP, RAMP), ["ramp", "two elements of the system have this name"]),
     "two flat names": (
         system(
             component("a.ramp", "ramp"),
@@ -146,7 +146,7 @@ TABLE = {
                 "</ssc:IntegerMappingTransformation>",
             ),
         ),
-        ["IntegerMappingTransformation on a value of type Real"],
+        ["IntegerMappingTransformation cannot be applied to a value of type Real"],
     ),
     "factor on a Boolean": (
         system(
@@ -154,7 +154,7 @@ TABLE = {
             component("whole", "whole", "input b Boolean"),
             connections=connection("ramp.flag", "whole.b", '<ssc:LinearTransformation factor="2"/>'),
         ),
-        ["LinearTransformation on a value of type Boolean"],
+        ["LinearTransformation cannot be applied to a value of type Boolean"],
     ),
     "parameter of no one": (
         system(RAMP, bindings=inline("ramp.stort=Real:1")),
@@ -172,7 +172,7 @@ TABLE = {
     ),
     "parameter of wrong unit": (
         system(RAMP, bindings=inline("ramp.start=Real:1 s")),
-        ["ramp.start", "unit s does not fit m"],
+        ["ramp.start", "unit s cannot be converted to m"],
     ),
     "parameter in an unknown unit": (system(RAMP, bindings=inline("ramp.start=Real:1 ell")), ["unit ell"]),
     "parameter twice": (system(RAMP, bindings=inline("ramp.start=Real:1; ramp.start=Real:2")), ["given twice"]),

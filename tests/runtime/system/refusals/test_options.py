@@ -42,7 +42,7 @@ from tests.support.refused import PLAIN, RAMP, ssp
         (["--use", "gian=gain"], ["--use: gian", "no such component", "gain, ramp"]),
         (["--use", "gain=nothing_of_this_name"], ["--use: gain=nothing_of_this_name", "no such FMU is built"]),
         (["--use", "gain=nowhere/x.fmu"], ["--use: nowhere/x.fmu", "no such file"]),
-        (["--parameters", "nowhere.ssv"], ["--parameters", "no nowhere.ssv"]),
+        (["--parameters", "nowhere.ssv"], ["--parameters", "has a file nowhere.ssv"]),
         (["--variant", "other"], ["--variant", "no variant other", "SystemStructure"]),
         (["--stop-time", "1.1"], ["--stop-time", "whole number of steps", "for instance --stop-time 1"]),
         (["--stop-time", "-1"], ["--stop-time"]),
@@ -81,7 +81,7 @@ FLAWS = {
     "unknown unit": (
         inline("ramp.start=Real:4 ell"),
         "ramp.start (line",
-        "unit ell is not defined here: the value is taken",
+        "unit ell is not defined here: the value is used",
     ),
     "twice": (
         inline("ramp.start=Real:3; ramp.start=Real:4"),
@@ -142,5 +142,5 @@ def test_a_parameter_that_the_system_shares_cannot_be_set_apart(tmp_path, tiny, 
     parts = component("gain", "gain", inside), component("second", "gain", inside)
     wires = connection("shared", "gain.factor") + connection("shared", "second.factor")
     root = system(*parts, connections=wires, declared="parameter shared Real", bindings=inline("shared=Real:2"))
-    words = ["--set: second.factor", "3.0 is not 2.0", "gain.factor, second.factor", "set shared instead"]
+    words = ["--set: second.factor", "3.0 differs from 2.0", "gain.factor, second.factor", "set shared instead"]
     refused(ssp(tmp_path, tiny, root), *words, options=["--set", "second.factor=3", "--open-inputs", "start"])

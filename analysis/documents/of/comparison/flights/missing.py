@@ -43,19 +43,21 @@ def missing_statements(
         reasons["trajectories"] = f"No trajectories and no commands over time: no flight has a trace; {remedy}"
     else:
         if moves and not trajectories:
-            reasons["trajectories"] = "No trajectories: no position[1], [2] and [3] in m is among the recorded signals"
+            reasons["trajectories"] = (
+                "No trajectories: the recorded signals do not contain position[1], [2] and [3] in m"
+            )
         if moves and "commands" not in kinds:
             words = "thrust_acceleration, thrust or thrust_direction"
-            reasons["commands"] = f"No commands: no {words} is among the recorded signals"
+            reasons["commands"] = f"No commands: the recorded signals contain no {words}"
         without = [label for label, traced in flights.items() if not traced]
         if without:
             reasons["traces"] = f"No flight has a trace: {', '.join(without)}"
     lacking = [variable for variable in UNITS if variable not in ends]
     if moves and lacking:
         words = " and ".join(lacking)
-        reasons["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements"
+        reasons["ends"] = f"No dispersion of the final {words}: [record] final does not contain its three elements"
     if moves and not has_mass:
-        reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass"
+        reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not contain a mass"
     if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):
         reasons["consistency"] = "No normalised estimation errors: no metric's name ends in _over_sigma"
     return reasons

@@ -34,8 +34,8 @@ def trajectory_section(content: ComparisonContent) -> list[Section]:
     if is_biased(content.comparison, content.flights.by_label):
         nodes.append(
             Missing(
-                "the flights shown over space and time are not the same trials of every variant, or failed ones only: "
-                "do not compare their spread"
+                "the plotted flights are not the same trials in every variant, or are only failed trials: do not "
+                "compare their spread"
             )
         )
     bundles = content.flights.bundles
@@ -62,7 +62,7 @@ def _trajectory_note(content: ComparisonContent) -> Note:
     ground = (
         "; grey: the ground at altitude 0"
         if over_ground
-        else ". No altitude is recorded: the side view shows an element of the position, no height over the ground"
+        else ". No altitude is recorded: the side view shows an element of the position, not a height above the ground"
     )
     return Note(
         f"Up to {DRAWN} flights of each, the same trials in every panel, to the same scales; side views are not to "
@@ -81,7 +81,7 @@ def end_section(content: ComparisonContent) -> list[Section]:
         signals = ", ".join(dict.fromkeys(each.signal for each in of_all.values()))
         targets = list(dict.fromkeys(each.target for each in of_all.values()))
         zero = f"zero, since no parameter of the system is called target_{variable}"
-        nodes.append(Note(f"{signals} less {', '.join(targets) if targets[0] else zero}, at the end of the flight."))
+        nodes.append(Note(f"{signals} minus {', '.join(targets) if targets[0] else zero}, at the end of the flight."))
     return [Section("At the end", nodes)] if nodes else []
 
 
@@ -122,8 +122,8 @@ def _bands_text(content: ComparisonContent) -> Text:
         "over the flights with a trace (",
         *counts,
         "): median of the successful ones, with 50 % and 90 % bands of the trials still active at a time, quantiles "
-        "as in the tables. They end where fewer than a quarter are active. Grey: some flights one by one; dark and "
-        "dashed: some that failed, which may leave the frame",
+        "as in the tables. They end where fewer than a quarter are active. Grey: some individual flights; dark "
+            "and dashed: some failed flights, which may leave the frame",
     ])  # fmt: skip
 
 
@@ -147,8 +147,8 @@ OVERLAID = (
     "contain 98.9 % of a bivariate normal distribution."
 )
 ARROW = (
-    "An arrow at the edge points to the farthest trial or ellipse outside, and has no scale: the text above it has the "
-    "number outside and the distance of the farthest from the target."
+    "An arrow at the edge points to the farthest trial or ellipse outside of the panel; its length has no scale. "
+    "The text above it states how many are outside, and the distance of the farthest from the target."
 )
 ENDS = (
     f"Table, ellipses (1, 2 and 3{SIGMA} of the sample covariance, about the mean, which "

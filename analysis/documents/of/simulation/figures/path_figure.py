@@ -145,8 +145,8 @@ def _caption(path: PathFigure) -> list[Inline]:
         text += ["; samples where ", *condition_text(path.rows)]
     text.append("; equal scales" if path.equal else "; not to scale")
     if isinstance(path.x, Arc):
-        origin = "great circle of its track, 0 at the origin, growing in flight"
-        text.append(f"; downrange: way of {path.x.position.label} along the {origin}")
+        origin = "great circle of its track, 0 at the origin and increasing in the direction of flight"
+        text.append(f"; downrange: distance of {path.x.position.label} along the {origin}")
     if _over_ground(path):
         text.append("; black line: surface")
     return sentence(text)
