@@ -137,7 +137,7 @@ class DiffOptions(TypedDict, total=False):
         float | None,
         Option(
             "a signal may differ by this fraction of its largest magnitude; a larger difference or a missing "
-            "signal is a problem; without it, signals that differ by up to {LISTING:g} are summarised",
+            f"signal is a problem; without it, signals that differ by up to {LISTING:g} are summarised",
             metavar="R",
         ),
     ]

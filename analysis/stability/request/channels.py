@@ -119,7 +119,7 @@ def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Ch
         return named
     if len(returned) != len(named):
         problem = f"{loop.returned} has {len(returned)} components, but the cut has {len(named)}"
-        raise InputError(network.file, where, problem, "name a signal with {len(named)} components")
+        raise InputError(network.file, where, problem, f"name a signal with {len(named)} components")
     return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
 
 

@@ -132,7 +132,7 @@ WRONG = {
     ),
     "unknown unit": ('<Band signal="plant.angles" low="0" unit="grad"/>', "Band", "unit grad is not defined"),
     "unit that does not fit": (
-        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, but s is required"
+        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, but s"
     ),
     "unit of what has none": (
         '<Band signal="plant.status" low="0" unit="s"/>', "Band", "plant.status: its unit is none, but s is required"
@@ -146,7 +146,7 @@ WRONG = {
     ),
     "pulses without lengths": ("<Pulses/>", "Pulses", "no lengths"),
     "pulses that are no times": (
-        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, but s is required"
+        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, but s"
     ),
     "count that is Real": (
         '<Pulses lengths="pulses.pulse_lengths" count="plant.jet_seconds"/>', "Pulses",

@@ -243,7 +243,7 @@ WRONG = {
     "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "either x, or"),
     "an arc without radius": (f'<Path arc="plant.angles" y="{SPACE}"/>', "Path", "either x, or arc and radius"),
     "an arc of angles": (
-        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, but m is required"
+        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, but m"
     ),
     "unlike axes to one scale": (
         f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave out equal"
@@ -251,7 +251,7 @@ WRONG = {
     "neither true nor false": (f'<Path x="{SPACE}" y="{SPACE}" equal="yes"/>', "Path", "equal 'yes' is neither true"),
     "a point of another unit": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="plant.jet_seconds" name="a"/></Path>',
-        "Point", "y plant.jet_seconds: its unit is s, but rad is required",
+        "Point", "y plant.jet_seconds: its unit is s, but rad",
     ),
     "a point without name": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="{SPACE}"/></Path>', "Point", "no name"
@@ -263,7 +263,7 @@ WRONG = {
     ),
     "a curve of a vector": ('<Curve signals="plant.angles"/>', "Curve", "signals plant.angles: no such scalar"),
     "curves of two units": (
-        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, but rad is required"
+        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, but rad"
     ),
     "labels of another number": (
         f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give one label"

@@ -156,13 +156,13 @@ WRONG = {
     "unknown shape": (ROBOT, '<Body name="x" shape="bx" size="1 2 3"/>', "Body", "shape bx is unknown"),
     "no such position": (ROBOT, body('position="robot.place"'), "Body", "position robot.place: no such signal"),
     "position of another size": (
-        ROBOT, body('position="robot.quaternion"'), "Body", "position robot.quaternion: its unit is 1, but m is required"
+        ROBOT, body('position="robot.quaternion"'), "Body", "position robot.quaternion: its unit is 1, but m"
     ),
     "an element of a position": (
-        ROBOT, body('position="robot.position[1]"'), "Body", "position robot.position[1] has 1 elements, but 3 are required"
+        ROBOT, body('position="robot.position[1]"'), "Body", "position robot.position[1] has 1 elements, but 3"
     ),
     "quaternion of another size": (
-        ROBOT, body('quaternion="robot.position"'), "Body", "quaternion robot.position has 3 elements, but 4 are required"
+        ROBOT, body('quaternion="robot.position"'), "Body", "quaternion robot.position has 3 elements, but 4"
     ),
     "two attitudes": (
         ROBOT, body('quaternion="robot.quaternion" axis="robot.position"'), "Body",
@@ -224,7 +224,7 @@ WRONG = {
     "a line from nowhere": (ROBOT, '<Line from="nobody" to="it"/>', "Line", "from nobody: no such Body or Site"),
     "a line to no ground": (ROBOT, '<Line from="it" to="ground"/>', "Line", "to ground needs a Surface"),
     "a site of another size": (
-        ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, but 3 are required"
+        ROBOT, '<Site name="x" position="robot.mass"/>', "Site", "position robot.mass has 1 elements, but 3"
     ),
     "an arrow without a signal": (ROBOT, '<Arrow name="a" from="it"/>', "Arrow", "no signal"),
     "an arrow from nowhere": (
@@ -232,7 +232,7 @@ WRONG = {
     ),
     "an arrow along a scalar": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.impulse"/>', "Arrow",
-        "signal robot.impulse has 1 elements, but 3 are required",
+        "signal robot.impulse has 1 elements, but 3",
     ),
     "an arrow in unknown axes": (
         ROBOT, '<Arrow name="a" from="it" signal="robot.position" frame="orbit"/>', "Arrow",

@@ -161,7 +161,7 @@ def modes(loop: LoopReport) -> Part:
     if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
         note += (
             " A real z below 0 is a single pole, not a pair: its response changes sign with every sample and is "
-            "multiplied by |z|, so s = ln(z)/T, damping and frequency are left out ({NONE})."
+            f"multiplied by |z|, so s = ln(z)/T, damping and frequency are left out ({NONE})."
         )
     return Part("modes", "Modes", Table([*numbers(*sizes), "kind", *numbers(*shares)], rows), note, rows="modes")
 
