@@ -7,9 +7,9 @@ import { make } from "./page/elements";
 import { SHEET } from "./scene/sheet";
 import { View } from "./scene/view";
 
-const NO_WEBGL = "There is no three-dimensional view here, since this browser has no WebGL; the figures of this page show the same flight.";
-const LOST = "The graphics system has lost the three-dimensional view. It may come back by itself; otherwise load the page again.";
-const FAILED = "The three-dimensional view could not be made; the figures of this page show the same flight.";
+const NO_WEBGL = "There is no three-dimensional view, since this browser has no WebGL; the figures of this page show the same flight.";
+const LOST = "The graphics system has lost the three-dimensional view. It may return by itself; otherwise reload the page.";
+const FAILED = "The three-dimensional view could not be created; the figures of this page show the same flight.";
 
 // In a thread of its own: the first context of a browser may take as long as the rest of the page.
 const PROBE = `

@@ -119,7 +119,7 @@ class _Wirer:
         start, arrow, targets = entry.text.partition(ARROW)
         texts = [each.strip() for each in TARGETS.split(targets)]
         if not (arrow and start.strip() and all(texts)) or ARROW in targets:
-            self.refuse(entry, "no connection", 'write "COMPONENT.OUTPUT -> COMPONENT.INPUT"')
+            self.refuse(entry, "not a connection", 'write "COMPONENT.OUTPUT -> COMPONENT.INPUT"')
             return
         source = self.end(start.strip(), entry)
         for each in texts:
@@ -208,7 +208,7 @@ class _Wirer:
         points = [(end.component, name) for name in end.names]
         remaining = [each for each in points if each not in self.wiring.connectors]
         if not remaining:
-            self.refuse(entry, "is connected", "remove it from this list")
+            self.refuse(entry, "is already connected", "remove it from this list")
         return remaining
 
     def declare(self, entry: ListEntry) -> None:

@@ -90,7 +90,12 @@ def _elements(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Ite
         if is_experiment and related.name is not None and related.name in files:
             root = parse_xml(files[related.name], f"{label}!{related.name}")
             if root.tag != "Experiments":
-                raise InputError(f"{label}!{related.name}", str(root.tag), "not Experiments", "write ma-hs-experiments")
+                raise InputError(
+                    f"{label}!{related.name}",
+                    str(root.tag),
+                    "the root element is not Experiments",
+                    "write ma-hs-experiments",
+                )
             for element in root.iterfind("Experiment"):
                 yield related.name, element
 
@@ -142,7 +147,7 @@ def _tolerances(element: etree._Element, file: str, label: str) -> Tolerances | 
 def _bound(element: etree._Element, key: str, file: str, label: str) -> float:
     bound = _number(element, key, file, label)
     if bound is not None and bound < 0.0:
-        raise _error(element, key, "is less than 0", file, label)
+        raise _error(element, key, "is negative", file, label)
     return 0.0 if bound is None else bound
 
 

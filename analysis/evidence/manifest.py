@@ -61,7 +61,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
     file = f"{label}!{MANIFEST}"
     root = parse_xml(files[MANIFEST], file)
     if root.tag != ROOT:
-        raise InputError(file, str(root.tag), f"not {ROOT}", "write a manifest of FMI-LS-REF")
+        raise InputError(file, str(root.tag), f"the root element is not {ROOT}", "write a manifest of FMI-LS-REF")
     flaws = [
         f"line {root.sourceline}: no attribute fmi-ls-{name}"
         for name in ATTRIBUTES
@@ -69,7 +69,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
     ]
     name = root.get(f"{{{NAMESPACE}}}fmi-ls-name", STANDARD)
     if name != STANDARD:
-        raise InputError(file, "fmi-ls-name", f"{name!r} is another layered standard", f"write {STANDARD}")
+        raise InputError(file, "fmi-ls-name", f"{name!r} is a different layered standard", f"write {STANDARD}")
     related = []
     for element in root.iterfind("Related"):
         line = f"Related (line {element.sourceline})"

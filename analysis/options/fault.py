@@ -35,7 +35,7 @@ class Fault:
         if self.kind not in KINDS:
             raise InputError("fault", self.name, f"unknown kind {self.kind}", f"use one of {', '.join(KINDS)}")
         if not math.isfinite(self.value):
-            raise InputError("fault", self.name, f"the value {self.value} is not finite", "give a number")
+            raise InputError("fault", self.name, f"the value {self.value} is not finite", "give a finite number")
         if self.kind == "freeze" and self.value != 0.0:
             raise InputError(
                 "fault", self.name, "a freeze has no value", "omit the value: a freeze holds the current value"

@@ -39,7 +39,7 @@ def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]
     """
     paths = tuple(Path(folder) for folder in path_list(folders))
     if not paths:
-        raise InputError("show", "", "no campaign folder given", "name what batch(..., output=...) wrote")
+        raise InputError("show", "", "no campaign folder is given", "give a folder that batch(..., output=...) wrote")
     _refuse_running_loop()
     server = CampaignServer(paths, options["port"] or 0)
     server.serve(lambda address: print(f"open {address}\nCtrl-C ends", flush=True))

@@ -109,7 +109,7 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
             raise InputError(
                 path,
                 "system options",
-                "system options apply only to systems",
+                "apply only to systems",
                 "validate this file alone",
             )
         if names_fmu(path):

@@ -66,7 +66,7 @@ def warn_damaged(path: Path) -> None:
 def warn_unusable(folder: Path, error: OSError) -> None:
     """Warn of an unusable cache, once for all of its folders."""
     home = _cache_of(folder)
-    warn_once(f"unusable {home}", f"cache {home} is not used: {reason_of(error)}; {remedy_of(error)}")
+    warn_once(f"unusable {home}", f"cache {home}: {reason_of(error)}: the cache is not used; {remedy_of(error)}")
 
 
 def _cache_of(folder: Path) -> Path:

@@ -66,6 +66,6 @@ CASES = {
     "evidence: another standard's": Case(
         fmu({MANIFEST: experiment("")[MANIFEST].replace("fmi-ls-ref", "fmi-ls-bus")}),  # type: ignore[arg-type]
         VERIFY,
-        ("fmi-ls-name: 'org.fmi-standard.fmi-ls-bus' is another layered standard",),
+        ("fmi-ls-name: 'org.fmi-standard.fmi-ls-bus' is a different layered standard",),
     ),
 }

@@ -184,7 +184,7 @@ def test_experiments_as_they_were_written_earlier(tmp_path, files, capsys, form)
         (b"<a", "not well-formed XML"),
         (b"<!DOCTYPE a><a/>", "DOCTYPE"),
         (b"<manifest/>", "manifest: not fmiReferences"),
-        (OTHERS.replace(b"fmi-ls-ref", b"fmi-ls-bus"), "'org.fmi-standard.fmi-ls-bus' is another layered standard"),
+        (OTHERS.replace(b"fmi-ls-ref", b"fmi-ls-bus"), "'org.fmi-standard.fmi-ls-bus' is a different layered standard"),
     ],
 )
 def test_without_a_manifest_that_is_one(tmp_path, files, capsys, manifest, message):

@@ -95,7 +95,7 @@ def test_json_file_and_page(folders, tmp_path, capsys):
         assert {repr(entry["success_rate"]), *map(repr, entry["success_interval"])} <= values
     assert "B is astar_guidance" in text_of(text)
     assert f"perilune compare {folders[0]} --reference astar_guidance" in text_of(text)
-    for words in ("6 of each", "plant.position less guidance.target_position", "guidance.thrust_acceleration"):
+    for words in ("6 of each", "plant.position minus guidance.target_position", "guidance.thrust_acceleration"):
         assert words in text_of(text)
     for digest in json.loads((folders[0] / "summary.json").read_text())["fmus"]["astar_guidance"].values():
         assert digest in text

@@ -46,7 +46,7 @@ export class Diagram {
         });
       }),
     );
-    const keys = "arrow keys go from block to line, Enter leads to the figure";
+    const keys = "arrow keys move between blocks and lines, Enter opens the figure";
     picture.setAttribute("role", "application");
     picture.setAttribute("aria-label", `${picture.getAttribute("aria-label")}; ${keys}`);
     this.elements = [...picture.querySelectorAll<SVGElement>("[data-signals]")];
@@ -121,7 +121,7 @@ export class Diagram {
     if (element !== this.current) return;
     this.card.replaceChildren(list);
     if (signals.length > MOST) this.card.append(`and ${signals.length - MOST} more in figures`);
-    if (!signals.length) this.card.append("In no figure: constant, or equal to other signals.");
+    if (!signals.length) this.card.append("Not in any figure, since the signals are constant or equal to others.");
     this.card.hidden = false;
     moveBeside(this.card, this.point);
   }

@@ -11,8 +11,8 @@ const BUTTONS: [key: string, label: string, sign: string][] = [
   ["PageUp", "earlier", "\u27f5"],
   ["PageDown", "later", "\u27f6"],
   ["0", "whole range", "\u2922"],
-  ["m", "second cursor here: differences and slopes", "\u0394"],
-  ["r", "least, greatest, rms of the visible range", "\u03a3"],
+  ["m", "second cursor at this point: differences and slopes", "\u0394"],
+  ["r", "minimum, maximum and rms of the visible range", "\u03a3"],
 ];
 
 const GESTURES = ["+", "-", "0"]; // a telephone has no button for a pinch and a double tap

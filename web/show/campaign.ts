@@ -123,7 +123,7 @@ export class CampaignView {
 
   private build(): void {
     const { system, folder, description, criterion, trials, flown, quantities } = this.campaign;
-    const there = flown < trials ? `${flown} of ${trials} trials, the others are not simulated yet` : `${trials} trials`;
+    const there = flown < trials ? `${flown} of ${trials} trials; the others are not simulated yet` : `${trials} trials`;
     const names = ["\u2026", ...quantities.map(labelOf)];
     const adding = choice("Add a histogram", names, 0, (index) => {
       if (index) this.add(index - 1);
@@ -152,6 +152,6 @@ export class CampaignView {
 }
 
 const NOTE =
-  "Squares: blue for successes, red for failures, in between by the fraction of failures; the darker, the more trials. Up to 20 000 trials are " +
-  "marks: successes in the colour of their variant, failures as crosses; click one for its numbers and replay command. " +
-  "The figure ignores the ranges of its own axes, and shows them as a rectangle.";
+  "Squares: blue for successes, red for failures, mixed by the fraction of failures; darker squares have more trials. Up to 20 000 trials are " +
+  "drawn as marks: successes in the colour of their variant, failures as crosses; click a mark for its numbers and replay command. " +
+  "The figure ignores the ranges of its own axes and shows them as a rectangle.";

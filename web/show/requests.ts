@@ -50,7 +50,7 @@ export class Requests {
     } catch (error) {
       if (controller.signal.aborted) return null;
       const isLost = error instanceof TypeError; // of fetch, when there is no answer
-      this.onError(isLost ? "No answer: perilune show has ended, or the connection is lost." : `An answer cannot be read: ${error}`);
+      this.onError(isLost ? "No answer: perilune show has ended, or the connection is lost." : `The answer of the server cannot be read: ${error}`);
     }
     return null;
   }

@@ -67,7 +67,7 @@ export class Summary {
     const clear = button("\u00d7", () => {
       this.filter.select(column, null);
       this.onSelect();
-    }, `End the range of ${shortName(quantity)}`);
+    }, `Remove the range of ${shortName(quantity)}`);
     const item = make("li", {}, `${shortName(quantity)} `);
     if (ends) {
       const digits = Math.max(DIGITS, 2 + Math.ceil(Math.log10(Math.max(Math.abs(ends.low), Math.abs(ends.high)) / ends.step)));

@@ -190,7 +190,7 @@ def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatte
         raise table.error("circle", f"{circle:g} is not a radius", "give a positive number")
     if circle is not None and units[x] != units[y]:
         raise table.error(
-            "circle", f"{x} is in {units[x]}, {y} in {units[y]}", "remove circle, or choose metrics in one unit"
+            "circle", f"{x} is in {units[x]}, but {y} is in {units[y]}", "remove circle, or choose metrics in one unit"
         )
     return Scatter(name, x, y, circle, table.get("title", text, ""))
 

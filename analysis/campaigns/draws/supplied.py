@@ -148,5 +148,5 @@ def _numbers(path: Path, table: pyarrow.Table, name: str) -> np.ndarray:
     values = np.ascontiguousarray(table[name].to_numpy(), dtype=np.float64)
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:
-        raise InputError(path, name, f"{values[wrong[0]]} in row {wrong[0]}", "give a finite number in every row")
+        raise InputError(path, name, f"row {wrong[0]} contains {values[wrong[0]]}", "give a finite number in every row")
     return values

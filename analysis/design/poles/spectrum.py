@@ -162,4 +162,4 @@ def distance(desired: np.ndarray, actual: np.ndarray) -> float:
 
 
 def _alone(name: str, pole: complex) -> InputError:
-    return InputError("modal", name, f"{pole:g} lacks its conjugate", f"give {pole.conjugate():g}, too")
+    return InputError("modal", name, f"{pole:g} lacks its conjugate", f"also give {pole.conjugate():g}")

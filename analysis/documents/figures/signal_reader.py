@@ -88,7 +88,7 @@ class SignalReader(AnnotationReader):
         """Read two attributes that are optional limits."""
         minimum, maximum = self.number(element, low), self.number(element, high)
         if minimum is not None and maximum is not None and not minimum < maximum:
-            raise self.refuse(element, f"{low} {minimum:g} is not below {high} {maximum:g}", "swap them")
+            raise self.refuse(element, f"{low} = {minimum:g} is not below {high} = {maximum:g}", "swap them")
         return minimum, maximum
 
     def rows(self, element: etree._Element) -> SampleRange | None:

@@ -158,7 +158,7 @@ def _item(
     attributes = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
     named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
     if not named and not plus and not minus:
-        raise reader.refuse(element, "has no terms", "give phases, plus or minus")
+        raise reader.refuse(element, "has neither phases nor plus nor minus", "give one or more of these attributes")
     for name in named:
         if name not in phases:
             raise reader.refuse(element, f"phases {name}: no such phase", suggestion(name, phases))

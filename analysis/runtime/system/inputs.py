@@ -176,7 +176,9 @@ def find_driven(network: Network, series: InputSeries, alone: str | None) -> dic
         where = (series.file, f"column {column}")
         if name in network.driver:
             problem = f"is connected to {network.driver[name].source.name}, which would overwrite it"
-            raise InputError(*where, problem, "drive an input that nothing is connected to, or give a `faults`")
+            raise InputError(
+                *where, problem, "drive an input that nothing is connected to, or inject a fault with `faults`"
+            )
         if name not in types:
             refuse_fixed(network, name if alone is None else f"{alone}.{column}", where)
             known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]

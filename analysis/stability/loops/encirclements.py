@@ -55,8 +55,8 @@ def encirclements(
     count = (2.0 * turned - np.pi * (integrators + 2 * len(undamped))) / (2.0 * np.pi)
     if abs(count - round(count)) > _NOT_A_COUNT:
         raise ValueError(
-            f"the number of encirclements is not whole: between {low:g} and {high:g} rad/s 1 + L turns "
-            f"{count:.3f} times about 0, since an open-loop pole is slower than {low:g} rad/s or close to the "
+            f"between {low:g} and {high:g} rad/s 1 + L turns {count:.3f} times about 0, not a whole number of "
+            f"times, since an open-loop pole is slower than {low:g} rad/s or close to the "
             "unit circle; start lower, end at the Nyquist frequency and name the poles on the unit circle"
         )
     return round(count)

@@ -43,7 +43,7 @@ def bounds_page() -> str:
         "at most 100 parts, integers have 64 bits, and numbers are finite doubles. Pipes, devices and folders in place "
         "of a regular file are not opened."
     )
-    return "\n\n".join(["# Bounds", text, table(["variable", "at most", ""], rows)]) + "\n"
+    return "\n\n".join(["# Bounds", text, table(["variable", "at most", "bounded quantity"], rows)]) + "\n"
 
 
 def folders_page() -> str:

@@ -65,9 +65,9 @@ def denied(number):
 @pytest.mark.parametrize(
     ("number", "text"),
     [
-        (errno.ENOSPC, "No space left on device: ; free some space"),
-        (errno.EACCES, "Permission denied: ; change its permissions"),
-        (errno.EROFS, "Read-only file system: ; mount its file system writable"),
+        (errno.ENOSPC, "No space left on device: the cache is not used; free some space"),
+        (errno.EACCES, "Permission denied: the cache is not used; change its permissions"),
+        (errno.EROFS, "Read-only file system: the cache is not used; mount its file system writable"),
     ],
 )
 def test_a_cache_that_cannot_be_written_is_done_without(tmp_path, said, monkeypatch, number, text):
@@ -83,7 +83,9 @@ def test_a_cache_that_is_a_file(tmp_path, said):
     (tmp_path / "cache").write_text("")
     folder = tmp_path / "cache" / "fused"
     assert cached.cached_file(folder / "a.so", lambda: CONTENT).read_bytes() == CONTENT
-    assert said() == [f"cache {folder} is not used: Not a directory; remove the file in the place of the folder"]
+    assert said() == [
+        f"cache {folder}: Not a directory: the cache is not used; remove the file in the place of the folder"
+    ]
 
 
 def test_a_cache_that_may_not_be_entered(tmp_path, said, monkeypatch):

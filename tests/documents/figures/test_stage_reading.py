@@ -246,7 +246,7 @@ WRONG = {
         f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, but m"
     ),
     "unlike axes to one scale": (
-        f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave out equal"
+        f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "have different units; leave out equal"
     ),
     "neither true nor false": (f'<Path x="{SPACE}" y="{SPACE}" equal="yes"/>', "Path", "equal 'yes' is neither true"),
     "a point of another unit": (
@@ -259,21 +259,21 @@ WRONG = {
     "where without ends": (f'<Path x="{SPACE}" y="{SPACE}" where="plant.status"/>', "Path", "where needs from or to"),
     "ends without where": (f'<Path x="{SPACE}" y="{SPACE}" to="3"/>', "Path", "to needs where"),
     "ends swapped": (
-        f'<Path x="{SPACE}" y="{SPACE}" where="plant.status" from="3" to="2"/>', "Path", "from 3 is above to 2"
+        f'<Path x="{SPACE}" y="{SPACE}" where="plant.status" from="3" to="2"/>', "Path", "from = 3 is above to = 2"
     ),
     "a curve of a vector": ('<Curve signals="plant.angles"/>', "Curve", "signals plant.angles: no such scalar"),
     "curves of two units": (
         f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, but rad"
     ),
     "labels of another number": (
-        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give one label"
+        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, but signals has 1; give"
     ),
     "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low 1 is not below high 0"),
     "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 preceding elements Phases"),
 }  # fmt: skip
 OF_PHASES = {
     "a budget of nothing": ("<Budget/>", "Budget", "no Item"),
-    "an item of nothing": ('<Budget><Item name="a"/></Budget>', "Item", "has no terms"),
+    "an item of nothing": ('<Budget><Item name="a"/></Budget>', "Item", "has neither phases nor plus"),
     "an unknown phase": (
         '<Budget><Item name="a" phases="first, next"/></Budget>', "Item",
         "phases next: no such phase; use one of first, last, then this",

@@ -174,7 +174,7 @@ WRONG = {
     ),
     "angles of another number": (
         CAPSULE, body('angles="plant.bank plant.attack" sequence="zyx"'), "Body",
-        "angles has 2 signals, sequence 3 axes",
+        "angles has 2 signals, but sequence has 3 axes",
     ),
     "angles that are none": (
         CAPSULE, body('angles="plant.height" sequence="z"'), "Body", "its unit is m, but rad is required"

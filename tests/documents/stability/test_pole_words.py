@@ -44,7 +44,9 @@ def test_a_count_that_is_no_whole_number_is_explained(loop):
     def response(frequency):
         return -0.2 / (np.exp(1j * np.asarray(frequency)) - 0.9)
 
-    with pytest.raises(ValueError, match="not a whole number: an open-loop pole is slower than") as caught:
+    with pytest.raises(
+        ValueError, match="not a whole number of times, since an open-loop pole is slower than"
+    ) as caught:
         encirclements(response, 0.05, np.pi)
     uncounted = replace(loop, classical=replace(loop.classical, encirclements=None))
     words = rich_text(left_out("encirclements", str(caught.value), uncounted))

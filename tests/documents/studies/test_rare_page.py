@@ -168,7 +168,10 @@ def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, t
     bound = replace(
         wide, simulation=replace(simulation, levels=levels, noise_ends=True), noise=Noise(("imu",), None, 7)
     )
-    assert bound.why_levels_ended == "levels end at level 3: 1 % of the noise moves of imu are accepted, below 5 %"
+    assert (
+        bound.why_levels_ended
+        == "levels end at level 3, since 1 % of the noise moves of imu are accepted, fewer than 5 %"
+    )
     unnamed = replace(bound.simulation, levels=(*levels[:-1], replace(ended, source=None)))
     fixed = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
     assert fixed.lines()[0].startswith("failure probability below 0.0012, a 95 % bound; estimate 2e-7")
@@ -190,7 +193,7 @@ def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
     assert_self_contained(page)
     words = text_of(page)
     assert "Failure not reached: probability below" in words
-    assert "Levels end at level 3: 1 % of the noise moves are accepted, below 5 %" in words
+    assert "Levels end at level 3, since 1 % of the noise moves are accepted, fewer than 5 %" in words
     assert "a bound ten times lower, by Monte Carlo: perilune batch" in words
     assert "--trials 5000" in words
 

@@ -83,7 +83,7 @@ def test_refused_in_one_line(ramp, compiler, text, problem):
 def test_a_cache_that_cannot_be_written(ramp, tmp_path):
     (tmp_path / "fused").write_text("a file in place of the folder")
     with (
-        pytest.warns(UserWarning, match=r"fused: Not a directory: "),
+        pytest.warns(UserWarning, match=r"fused: Not a directory: the cache is not used"),
         Simulation(of(ramp, flavour="fused")) as simulation,
     ):
         assert simulation.fly().complete

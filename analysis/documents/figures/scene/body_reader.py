@@ -60,7 +60,7 @@ def _read_size(reader: SignalReader, element: etree._Element) -> Vector:
     """Read the positive extents (m) of a body or a panel."""
     size = read_vector(reader, element, "size")
     if not all(extent > 0.0 for extent in size):
-        raise reader.refuse(element, f"size {element.get('size')} is not positive", "give three lengths in m")
+        raise reader.refuse(element, f"size {element.get('size')} is not positive", "give three positive lengths in m")
     return size
 
 

@@ -58,7 +58,7 @@ class FrameReader(AnnotationReader):
         if name in self.network.frames:
             raise self.refuse(element, f"a second Frame {name}", "write only one")
         if len(axes) not in DIMENSIONS:
-            raise self.refuse(element, f"axes has {len(axes)} names", "write one for each axis, 2 or 3")
+            raise self.refuse(element, f"axes has {len(axes)} names", "write two or three names, one for each axis")
         self.network.frames[name] = axes
         if name not in self.described and not (element.get("signals") or self.substituted):
             remedy = f'{suggestion(name, self.described)}, or list its vectors: signals="COMPONENT.VECTOR"'

@@ -115,7 +115,7 @@ FRAME = [
     ('name="landing site"', 'no axes; write axes="..."'),
     ('axes="a b c"', 'no name; write name="..."'),
     ('name="landing site" axes="a b"', "axes has 2 names, .* has 3 elements; write one name for each"),
-    ('name="landing site" axes="a b c d"', "axes has 4 names; write one for each axis, 2 or 3"),
+    ('name="landing site" axes="a b c d"', "axes has 4 names; write two or three names, one for each axis"),
     ('name="landing site" axes="a b b"', "axes: b occurs twice; give each axis a different name"),
     ('name="landing site" axes="a b c" frame="x"', "unknown attribute frame"),
     ('name="other" axes="a b c" signals="plant.positoin"', "signals plant.positoin: no such vector; .*plant.position"),
