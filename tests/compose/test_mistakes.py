@@ -64,7 +64,7 @@ MISTAKES = {
         f'{COUNT}, "gyros.sample_count -> navigation.star_count"',
         "navigation.star_count is driven twice, first by star.sample_count; remove one of the two",
     ),
-    "no arrow": (COUNT, '"star.sample_count"', 'no connection; write "COMPONENT.OUTPUT -> COMPONENT.INPUT"'),
+    "no arrow": (COUNT, '"star.sample_count"', 'not a connection; write "COMPONENT.OUTPUT -> COMPONENT.INPUT"'),
     "an unknown connector of the system": (
         COUNT,
         f'{COUNT}, "star.sample_count -> finished"',
@@ -89,7 +89,7 @@ MISTAKES = {
     "declared although connected": (
         COMPONENTS,
         'declare = ["star.sample_count"]\n[components]\n',
-        "declare (line 21): star.sample_count: is connected; remove it from this list",
+        "declare (line 21): star.sample_count: is already connected; remove it from this list",
     ),
     "an output left unconnected": (
         '["star.*"',

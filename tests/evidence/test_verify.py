@@ -183,7 +183,7 @@ def test_experiments_as_they_were_written_earlier(tmp_path, files, capsys, form)
         (None, f"evidence: contains no {MANIFEST}, so there is nothing to verify; export it with Perilune"),
         (b"<a", "not well-formed XML"),
         (b"<!DOCTYPE a><a/>", "DOCTYPE"),
-        (b"<manifest/>", "manifest: not fmiReferences"),
+        (b"<manifest/>", "manifest: the root element is not fmiReferences"),
         (OTHERS.replace(b"fmi-ls-ref", b"fmi-ls-bus"), "'org.fmi-standard.fmi-ls-bus' is a different layered standard"),
     ],
 )
@@ -204,7 +204,7 @@ def test_without_a_manifest_that_is_one(tmp_path, files, capsys, manifest, messa
         (OUTPUTS, b"t,a\n1.0,2.0\n", 1, "time: no such column"),
         (OUTPUTS, b"time,nothing\n0.0,2.0\n", 1, "column nothing: no such variable"),
         (f"{FOLDER}/check.ssv", b"<a/>", 1, "not valid SSP"),
-        (f"{FOLDER}/check.exp", b"<a/>", 2, "a: not Experiments"),
+        (f"{FOLDER}/check.exp", b"<a/>", 2, "a: the root element is not Experiments"),
     ],
 )
 def test_evidence_that_cannot_be_read(tmp_path, files, capsys, name, content, status, message):

@@ -109,12 +109,12 @@ WRONG = {
     "point that ends before it is there": (
         '<Point name="p" time="20" until="10"/>',
         "Point",
-        "until 10 s is not after time 20 s",
+        "until = 10 s is not after time = 20 s",
     ),
     "point that lasts no time": (
         '<Point name="p" time="20" until="20"/>',
         "Point",
-        "until 20 s is not after time 20 s",
+        "until = 20 s is not after time = 20 s",
     ),
     "set without a value": ('<Point name="p" time="1"><Set name="c.p"/></Point>', "Set", "no value"),
     "parameter set without a source": ('<Point name="p" time="1"><ParameterSet/></Point>', "ParameterSet", "no source"),

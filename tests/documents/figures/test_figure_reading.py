@@ -110,7 +110,7 @@ WRONG = {
     "unknown attribute": ('<Band signal="plant.angles" hi="1"/>', "Band", "unknown attribute hi"),
     "no signal": ('<Band low="1"/>', "Band", "no signal"),
     "no limit": ('<Band signal="plant.angles"/>', "Band", "neither low nor high"),
-    "limits swapped": ('<Band signal="plant.angles" low="1" high="-1"/>', "Band", "low 1 is not below high -1"),
+    "limits swapped": ('<Band signal="plant.angles" low="1" high="-1"/>', "Band", "low = 1 is not below high = -1"),
     "limit that is no number": ('<Band signal="plant.angles" low="1 deg"/>', "Band", "low '1 deg' is not a number"),
     "unknown signal": ('<Band signal="plant.angels" low="0"/>', "Band", "signal plant.angels: no such signal; the"),
     "element beyond a vector": ('<Band signal="plant.angles[4]" low="0"/>', "Band", "plant.angles[4]: no such signal"),

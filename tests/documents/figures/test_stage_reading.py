@@ -213,7 +213,7 @@ WRONG = {
     "no limit": ("<Limits/>", "Limits", "no Limit"),
     "a limit of nothing": (f'<Limits><Limit signal="{SPACE}"/></Limits>', "Limit", "neither least nor most"),
     "limits swapped": (
-        f'<Limits><Limit signal="{SPACE}" least="2" most="1"/></Limits>', "Limit", "least 2 is not below most 1"
+        f'<Limits><Limit signal="{SPACE}" least="2" most="1"/></Limits>', "Limit", "least = 2 is not below most = 1"
     ),
     "a limit of a vector": ('<Limits><Limit signal="plant.angles" most="1"/></Limits>', "Limit", "is a vector"),
     "an unknown measure": (
@@ -268,7 +268,7 @@ WRONG = {
     "labels of another number": (
         f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, but signals has 1; give"
     ),
-    "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low 1 is not below high 0"),
+    "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low = 1 is not below"),
     "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 preceding elements Phases"),
 }  # fmt: skip
 OF_PHASES = {

@@ -124,7 +124,7 @@ FRAME = [
 VECTOR = [
     (
         'signals="plant.position" elements="a b"',
-        "elements has 2 names, plant.position has 3 elements; write one name for each",
+        "elements has 2 names, but plant.position has 3 elements; write one name for each",
     ),
     ('signals="plant.mass plant.mass" elements="a"', "signals plant.mass: no such vector"),
     ('signals="plant.position plant.position" elements="a b c"', "signals plant.position is listed twice"),
