@@ -122,7 +122,7 @@ def test_declarations_that_do_not_fit_are_refused(declared: dict, message: str) 
 
 def test_a_method_with_the_name_of_a_bundle_is_refused() -> None:
     with pytest.raises(
-        DeclarationError, match=r"Named\.two: a Level of what Named derives from; give the variable another name"
+        DeclarationError, match=r"Named\.two: is a Level in a base class of Named; give the variable another name"
     ):
 
         class Named(Bundled):
@@ -133,7 +133,7 @@ def test_a_method_with_the_name_of_a_bundle_is_refused() -> None:
 
 
 def test_an_input_cannot_become_an_output_by_a_bundle() -> None:
-    with pytest.raises(DeclarationError, match=r"Giving\.one_level: a output here, of causality input"):
+    with pytest.raises(DeclarationError, match=r"Giving\.one_level: has causality output here, but input"):
 
         class Giving(Bundled):
             """Gives what it took."""

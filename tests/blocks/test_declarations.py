@@ -48,7 +48,7 @@ def test_a_record_with_a_field_that_is_no_float_is_refused(kind):
         root = Field(unit="s", description="root")
         exists = Field(kind, description="there is one")
 
-    assert "the field exists of its record is no float" in refusal(crossing=State(Crossing))
+    assert "the field exists of its record is not a float" in refusal(crossing=State(Crossing))
 
 
 @pytest.mark.parametrize("name", ["sample_period", "start_time", "internal_step", "longest_step"])

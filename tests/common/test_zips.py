@@ -27,7 +27,7 @@ def test_a_link_in_a_system_is_named(tmp_path):
 
 
 LINK = (
-    "a symbolic link, which is not accepted in an archive; "
+    "is a symbolic link, which is not accepted in an archive; "
     "repack the archive with the file or folder in place of the link"
 )
 

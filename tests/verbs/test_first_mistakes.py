@@ -345,7 +345,7 @@ CASES = {
     "an element below its minimum": (["export", "below.py"], ["Mine.w", "starts at -1.0", "below its minimum 0.0"]),
     "a slot's input as a parameter": (
         ["export", "other_causality.py"],
-        ["Mine.mass", "a parameter here, of causality input", "give the variable another name"],
+        ["Mine.mass", "has causality parameter here, but input", "give the variable another name"],
     ),
     "two classes of one name": (["export", "twice.py"], ["lines 6 and", "two classes Mine", "rename one"]),
     "two classes of one FMU": (["export", "two_cases.py"], ["AxisMine and Axis_Mine", "axis_mine", "rename one"]),
