@@ -177,7 +177,7 @@ def test_other_trials_than_the_campaigns_have_no_lookups(folder):
     """Draws from a file, and those of a study, are not those of the table."""
     output = folder / "out"
     batch(folder, output=output)
-    with pytest.warns(UserWarning, match="looked_up, difference: omitted, since reference holds the campaign's own"):
+    with pytest.warns(UserWarning, match="looked_up, difference: omitted, since reference covers only the"):
         repeated = batch(folder, draws=output / "draws.parquet")
     assert list(repeated.trials["default"].metrics) == ["last"]
     call = {"failure": "looked_up > 1", "samples": 100, "workers": 1}
