@@ -195,7 +195,7 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
             "scatter.s.z: unknown key; allowed here: x, y",
         ),
         (PAIR + '[scatter.s]\nx = "m"\ny = "m"\ncircle = 0\n', "scatter.s.circle: 0 is not a radius"),
-        (PAIR + '[scatter.s]\nx = "m"\ny = "n"\ncircle = 1\n', "scatter.s.circle: m is in 1, but n in kg"),
+        (PAIR + '[scatter.s]\nx = "m"\ny = "n"\ncircle = 1\n', "scatter.s.circle: m is in 1, but n is in kg"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(campaign, text, says):
