@@ -17,7 +17,7 @@ from pathlib import Path
 
 import perilune
 from perilune.analysis.exports.system_fmu.build import build_system_fmu
-from perilune.analysis.exports.system_fmu.request import OneFmu
+from perilune.analysis.exports.system_fmu.one_fmu import OneFmu
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
 from perilune.analysis.runtime.system.options import SystemOptions

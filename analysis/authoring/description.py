@@ -9,7 +9,7 @@ from typing import Any
 
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.prepared import PreparedSystem
-from ..stability.request.reading import read_declaration
+from ..stability.request.loop_declaration import read_declaration
 from .fits import find_fitting_fmus
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")

@@ -13,7 +13,7 @@ import msgspec
 from ...common.errors import InputError
 from ..options.choices import OpenInputs
 from ..options.option import members_of, options_of
-from ..options.system import SystemKeywords, TrustOptions
+from ..options.simulation_options import SystemKeywords, TrustOptions
 from ..runtime.system.options import SystemOptions
 
 REFUSE: OpenInputs = "refuse"

@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow
 
 from ...common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
-from .columns import Describe, with_metadata
+from .trial_columns import Describe, with_metadata
 from .verdicts.order_statistics import Blocks
 
 Trace = dict[str, np.ndarray]  # signals by name, and ``time`` (s)

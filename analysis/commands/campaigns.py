@@ -11,7 +11,7 @@ from ...common.paths import SYSTEMS
 from ..campaigns.definition.campaign import Variant
 from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.execute.plan_manifest import restore
-from ..campaigns.folder.manifest import read_manifest
+from ..campaigns.folder.campaign_manifest import read_manifest
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, REPLAY
 

@@ -9,10 +9,10 @@ from typing import Any
 
 from ...common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
-from ..runtime.ssp.description import Binding, Component, Element, SystemDescription
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.parameter_sets import Assignment, read_binding
-from ..runtime.ssp.reading import read_description
+from ..runtime.ssp.ssd_reader import read_description
+from ..runtime.ssp.system_description import Binding, Component, Element, SystemDescription
 from ..runtime.system.fmu import Fmu
 from .assembly import load_fmus
 from .document import RESOURCES, fmu_source, set_source, write_document

@@ -12,7 +12,7 @@ from ...common.errors import InputError
 from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ...fmus_src.units import BASE_UNITS
-from ..campaigns.definition.source import key_lines, parse_toml
+from ..campaigns.definition.campaign_source import key_lines, parse_toml
 from ..campaigns.definition.table import TomlTable, integer, names, number, text
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.parameter_values import ParameterValue

@@ -23,8 +23,8 @@ from ..runtime.system.alone import describe_alone
 from ..runtime.system.fmu import Fmu, load_fmu
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from .comparison import SignalCheck, compare, time_margin
 from .experiments import PlannedExperiment
+from .reference_comparison import SignalCheck, compare, time_margin
 from .trajectory import Trajectory, read_trajectory
 
 TEXTS = ("String", "Binary")

@@ -16,7 +16,7 @@ from ..runtime.system.options import SystemOptions
 from .experiments import plan_experiments
 from .manifest import Manifest, check_listed, read_manifest
 from .reproduction import Reproduction, reproduce
-from .studies import compare_report, known_studies
+from .study_evidence import compare_report, known_studies
 from .sums import check_sums
 
 NAMED = 10  # most added files, or flaws of a manifest, that are listed

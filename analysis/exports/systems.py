@@ -13,7 +13,7 @@ from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE, pack_system
-from ..evidence.system import add_system_evidence, check_studies
+from ..evidence.system_evidence import add_system_evidence, check_studies
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.ssp.documents import parse_xml
 from ..runtime.ssp.version_2.package import convert_package

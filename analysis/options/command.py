@@ -9,7 +9,7 @@ from typing import Any
 
 from .declaration import Verb
 from .option import options_of
-from .values import value_texts
+from .option_values import value_texts
 
 
 def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, object]) -> str:

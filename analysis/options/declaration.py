@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypedDict
 
-from .system import JsonFile
+from .simulation_options import JsonFile
 
 
 class NoOptions(TypedDict):

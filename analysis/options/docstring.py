@@ -11,7 +11,7 @@ from typing import Literal, get_args, get_origin
 
 from .declaration import Verb
 from .option import Declared, Kind, members_of, options_of
-from .values import read_value
+from .option_values import read_value
 
 WIDTH = 100
 FLAG = re.compile(r"--([a-z0-9]+(?:-[a-z0-9]+)*)")

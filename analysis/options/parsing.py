@@ -8,8 +8,8 @@ from typing import Any
 
 from .declaration import Argument, Verb
 from .option import Declared, Kind, options_of
-from .system import SHARED
-from .values import read_value
+from .option_values import read_value
+from .simulation_options import SHARED
 
 Completer = Callable[..., Iterable[str]]  # type of argcomplete's completers
 FindCompleter = Callable[[str], Completer]  # finds a completer by its declared name

@@ -11,7 +11,7 @@ from ...common.errors import suggestion
 from .declaration import Verb
 from .docstring import document_verb
 from .option import defaults_of, options_of
-from .values import check_value
+from .option_values import check_value
 
 Function = TypeVar("Function", bound=Callable[..., object])
 

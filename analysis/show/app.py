@@ -21,11 +21,11 @@ from starlette.routing import Route
 from starlette.types import ASGIApp
 
 from ...common.errors import InputError
-from .campaign import OpenCampaign, StoppedError
-from .columns import MEMORY, BinnedColumns
+from .binned_columns import MEMORY, BinnedColumns
 from .counts import Counter
 from .dots import TABLE_LIMIT, trials_document
 from .guard import Guard
+from .opened_campaign import OpenCampaign, StoppedError
 from .query import Query, read_query
 from .selected import selected_csv
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .columns import Binned, BinnedColumns
+from .binned_columns import Binned, BinnedColumns
 from .documents import Counts, GridCounts, HistogramCounts, RangeEnds, ScaleDocument
 from .dots import DOT_LIMIT, dots_of
 from .query import Query, Range

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .campaign import OpenCampaign
 from .documents import DotsDocument, TrialEntry
+from .opened_campaign import OpenCampaign
 
 DOT_LIMIT = 20_000  # trials that a figure shows one by one
 TABLE_LIMIT = 50  # rows of the table of selected trials

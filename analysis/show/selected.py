@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import pyarrow.csv
 
-from .campaign import OpenCampaign
+from .opened_campaign import OpenCampaign
 
 
 def selected_csv(campaign: OpenCampaign, mask: np.ndarray, names: Sequence[str]) -> Iterator[bytes]:

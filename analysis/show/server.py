@@ -14,8 +14,8 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ...common.errors import InputError
 from .app import Service, make_app
-from .campaign import open_campaign
-from .page import show_page
+from .browser_page import show_page
+from .opened_campaign import open_campaign
 
 HOST = "127.0.0.1"
 TOKEN_BYTES = 32

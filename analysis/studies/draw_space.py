@@ -12,7 +12,7 @@ import numpy as np
 from ...common.errors import InputError, suggestion
 from ..campaigns.definition.campaign import Campaign
 from ..campaigns.definition.distributions import Discrete
-from ..campaigns.draws.declared import Columns, Continuous, Draw
+from ..campaigns.draws.interfaces import Columns, Continuous, Draw
 
 
 class DrawSpace:

@@ -12,13 +12,13 @@ import numpy as np
 import pyarrow
 
 from ...common.atomic import write_atomically
-from ..campaigns.draws.declared import input_names
+from ..campaigns.draws.interfaces import input_names
 from ..campaigns.draws.supplied import stream_component
-from ..campaigns.folder.files import write_parquet
+from ..campaigns.folder.shard_files import write_parquet
 from ..campaigns.lost_trials import lost_words
 from .draw_space import DrawSpace
-from .flights import StudyProvenance
 from .noise import Noise, conditions
+from .sample_flights import StudyProvenance
 
 Columns = Mapping[str, np.ndarray]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..campaigns.definition.plan import with_streams
-from ..campaigns.draws.declared import Columns
+from ..campaigns.draws.interfaces import Columns
 from ..campaigns.draws.supplied import ALL, Streams, SuppliedDraws
 from ..runtime.system.prepared import PreparedSystem
 

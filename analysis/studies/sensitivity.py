@@ -13,10 +13,10 @@ from ...common.errors import InputError
 from ..campaigns.definition.plan import BatchPlan
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
-from .flights import SampleFlights
 from .flown import Flown, StudyResult, strict_number
+from .sample_flights import SampleFlights
 from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_points, with_noise
-from .units import units_of
+from .study_units import units_of
 
 SUCCESS = "success"
 NOISE = "noise realisation"  # name of the input that represents all random noise

@@ -8,9 +8,8 @@ from pathlib import Path
 
 from ...common.atomic import write_atomically
 from ...fmus_src.evidence.manifest import mime_type
-from ..campaigns.execute.results import CampaignResult
-from ..campaigns.folder.files import DRAWS, FOLDER, SUMMARY
-from ..campaigns.folder.manifest import (
+from ..campaigns.execute.campaign_result import CampaignResult
+from ..campaigns.folder.campaign_manifest import (
     CONTENTS,
     FILE,
     CampaignDocument,
@@ -18,6 +17,7 @@ from ..campaigns.folder.manifest import (
     SourceDocument,
     read_manifest,
 )
+from ..campaigns.folder.shard_files import DRAWS, FOLDER, SUMMARY
 from ..commands.campaigns import campaign_command
 from .elements import Task
 

@@ -11,9 +11,9 @@ from ...common.errors import InputError, suggestion
 from ...common.percent import short_percent
 from ...common.targets import check_folder
 from ..campaigns.definition.expressions import Expression
-from ..campaigns.execute import results
-from ..campaigns.execute.campaign import open_campaign
+from ..campaigns.execute import campaign_result
 from ..campaigns.execute.cluster.connection import cluster
+from ..campaigns.execute.loaded_campaign import open_campaign
 from ..campaigns.execute.runner import fly_campaign
 from ..campaigns.summary_text import select_metrics
 from ..documents.model import Document
@@ -25,7 +25,7 @@ from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
-from .common.campaigns import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
+from .common.campaign_options import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
 from .common.documented import Documented
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
 
 
 @dataclass(repr=False)
-class BatchResult(Documented, results.CampaignResult):
+class BatchResult(Documented, campaign_result.CampaignResult):
     """Result of a campaign: ``summary`` contains rates and statistics by variant, ``trials`` numbers by trial.
 
     ``requirements`` are the expressions of the option ``require``, and ``displayed`` are the metrics of the option

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from ...common.errors import InputError, suggestion
-from ..campaigns.compare import comparison
+from ..campaigns.compare import campaign_comparison
 from ..campaigns.compare.side_by_side import compare_folders
 from ..campaigns.summary import summary_rows
 from ..documents.model import Document
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(Documented, comparison.CampaignComparison):
+class Comparison(Documented, campaign_comparison.CampaignComparison):
     """Comparison of variants on the same trials, with a ``summary`` by label and ``pairs`` of labels.
 
     `compare_rates` and `compare_values` compare a pair.
@@ -61,7 +61,12 @@ class Comparison(Documented, comparison.CampaignComparison):
 
         Raises KeyError for an unknown metric, ValueError if there is nothing to plot.
         """
-        from ..documents.of.comparison.distributions import looks_of, metric_distributions, metric_figures, sort_metrics
+        from ..documents.of.comparison.variant_distributions import (
+            looks_of,
+            metric_distributions,
+            metric_figures,
+            sort_metrics,
+        )
         from ..documents.render.notebook import plot_figures
 
         known = {metric.name: metric for metric in self.metrics}

@@ -17,18 +17,18 @@ from ..compose.files import add_mark, check_unedited, write_source
 from ..compose.reconstruction import source_of
 from ..compose.source import SystemSource, read_source
 from ..compose.text import write_toml
-from ..documents.figures.reading import read_figures
+from ..documents.figures.figure_reader import read_figures
 from ..documents.model import Document
-from ..documents.of.files import composition_document
+from ..documents.of.written_files import composition_document
 from ..options.declared.library import COMPOSE, ComposeOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.ssp.archive import open_system
-from ..runtime.ssp.reading import read_description
+from ..runtime.ssp.ssd_reader import read_description
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
-from ..stability.request.reading import read_declaration
+from ..stability.request.loop_declaration import read_declaration
 from .common.documented import Documented
 
 

@@ -12,7 +12,7 @@ from ...common.errors import InputError, suggestion
 from ...common.paths import names_fmu
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ..authoring.campaign import describe_campaign
+from ..authoring.campaign_listing import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
 from ..documents.model import Document

@@ -9,7 +9,7 @@ from typing import Unpack
 from ...common.errors import InputError
 from ...common.paths import BUILD, IS_CHECKOUT
 from ..documents.model import Document
-from ..documents.of.files import site_document
+from ..documents.of.written_files import site_document
 from ..options.declared.library import DOCS, DocsOptions
 from ..options.verb import verb
 from .common.browser import open_page

@@ -17,16 +17,16 @@ from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.own_blocks import defines
 from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..documents.model import Document
-from ..documents.of.files import exported_document
+from ..documents.of.written_files import exported_document
 from ..exports.block_files import check_file_exists, export_file, find_block_file
 from ..exports.fmus import build_fmu, has_zig
 from ..exports.request import ExportedFiles, ExportRequest
 from ..exports.system_fmu.build import build_system_fmu
-from ..exports.system_fmu.request import OneFmu
+from ..exports.system_fmu.one_fmu import OneFmu
 from ..exports.systems import export_system
 from ..options.declared.library import EXPORT, ExportOptions
 from ..options.option import FilePath, defaults_of, options_of
-from ..options.system import AssemblyOptions
+from ..options.simulation_options import AssemblyOptions
 from ..options.verb import verb
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.system.options import system_options

@@ -18,8 +18,8 @@ from ..documents.of.inventory import inventory_document
 from ..options.declared.library import LIST
 from ..options.verb import verb
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
-from ..runtime.ssp.reading import read_description
-from ..stability.request.reading import read_declaration
+from ..runtime.ssp.ssd_reader import read_description
+from ..stability.request.loop_declaration import read_declaration
 from .common.documented import Documented
 
 KINDS = ("systems", "campaigns", "laws", "searches", "fmus")

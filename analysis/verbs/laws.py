@@ -12,7 +12,7 @@ from ...common.errors import InputError
 from ...common.targets import check_folder
 from ..design.laws import law as laws
 from ..design.laws.law import find_law, parameter_set
-from ..design.synthesis import outcome
+from ..design.synthesis import synthesis_outcome
 from ..design.synthesis.synthesis import run_synthesis
 from ..design.synthesis.synthesis_file import find_search, read_synthesis
 from ..documents.model import Document
@@ -62,7 +62,7 @@ class Law(Documented, laws.NetworkOperator):
 
 
 @dataclass
-class SynthesisResult(Documented, outcome.SynthesisOutcome):
+class SynthesisResult(Documented, synthesis_outcome.SynthesisOutcome):
     """Result of a search for a law; ``ended`` is the reason for its end: success, generations or evaluations."""
 
     def document(self) -> Document:

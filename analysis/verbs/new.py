@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ..authoring import block, system
+from ..authoring import block_template, system_template
 from ..documents.model import Document
-from ..documents.of.files import new_files_document
+from ..documents.of.written_files import new_files_document
 from ..options.declared.library import NEW_BLOCK, NEW_SYSTEM
 from ..options.verb import verb
 from .common.documented import Documented
 
 
-class NewFiles(Documented, block.CreatedFiles):
+class NewFiles(Documented, block_template.CreatedFiles):
     """The ``paths`` that were written, and the ``commands`` to run next."""
 
     def document(self) -> Document:
@@ -24,7 +24,7 @@ def new_block(name: str, slot: str | None = None) -> NewFiles:
 
     ``slot`` is an interface (of a guidance, filter or allocation) that the block implements. Raises InputError.
     """
-    return NewFiles(**vars(block.new_block(name, slot)))
+    return NewFiles(**vars(block_template.new_block(name, slot)))
 
 
 @verb(NEW_SYSTEM)
@@ -33,4 +33,4 @@ def new_system(name: str) -> NewFiles:
 
     Raises InputError.
     """
-    return NewFiles(**vars(system.new_system(name)))
+    return NewFiles(**vars(system_template.new_system(name)))

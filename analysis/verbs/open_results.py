@@ -13,8 +13,8 @@ import pyarrow.compute
 from ...common.errors import InputError, suggestion
 from ..campaigns.definition.campaign import Metric
 from ..campaigns.definition.expressions import Expression
-from ..campaigns.execute.campaign import read_folder
-from ..campaigns.execute.results import CampaignResult
+from ..campaigns.execute.campaign_result import CampaignResult
+from ..campaigns.execute.loaded_campaign import read_folder
 from ..campaigns.folder.opened import OpenedResults
 from ..documents.common.colours import look
 from ..documents.of.campaign.distributions import distribution_plot

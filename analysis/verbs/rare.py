@@ -15,7 +15,7 @@ from ..options.verb import verb
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
 from .common.arguments import read_requirements
-from .common.campaigns import commands_of, read_campaign
+from .common.campaign_options import commands_of, read_campaign
 from .common.studies import RequirementResult, conditions, results_folder, store_result
 
 NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # numbers to which requirements may refer

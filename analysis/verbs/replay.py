@@ -12,18 +12,18 @@ from ...common.errors import InputError
 from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.plain_text import faults_line
 from ..commands.campaigns import replay_command, replay_of_folder
-from ..documents.figures.reading import read_figures
+from ..documents.figures.figure_reader import read_figures
 from ..documents.of.batch.printed import outcome_lines
 from ..documents.of.simulation.run import RunContext
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
 from ..options.option import FilePath
-from ..options.system import TrustOptions
+from ..options.simulation_options import TrustOptions
 from ..options.verb import verb
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import select_permissions
 from .common.arguments import read_requirements
-from .common.campaigns import read_campaign
+from .common.campaign_options import read_campaign
 from .run import STUCK, Result
 
 METRIC = "metric."

@@ -13,7 +13,7 @@ from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.plain_text import faults_line
 from ..documents.figures.declared import FigureDeclaration
-from ..documents.figures.reading import read_figures
+from ..documents.figures.figure_reader import read_figures
 from ..documents.model import Document
 from ..documents.of.simulation.ending import flight_lines, flight_problems, note_lines
 from ..documents.of.simulation.figures.limits import limit_document

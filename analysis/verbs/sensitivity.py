@@ -16,7 +16,7 @@ from ..options.declared.studies import SENSITIVITY, SensitivityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..studies import sensitivity as study
-from .common.campaigns import commands_of, read_campaign
+from .common.campaign_options import commands_of, read_campaign
 from .common.studies import StoredResult, conditions, results_folder, store_result
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import

@@ -10,8 +10,8 @@ from typing import Unpack
 
 from ...common.errors import InputError
 from ...common.targets import check_folder
-from ..campaigns.execute.campaign import open_campaign, open_folder
 from ..campaigns.execute.cluster.connection import cluster
+from ..campaigns.execute.loaded_campaign import open_campaign, open_folder
 from ..campaigns.execute.runner import fly_campaign, merge_rows
 from ..campaigns.folder.numbering import parse_shards
 from ..campaigns.summary_text import select_metrics
@@ -23,7 +23,7 @@ from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.system.options import select_permissions
 from .batch import BatchResult
-from .common.campaigns import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
+from .common.campaign_options import campaign_requirements, read_campaign, resume_hint, warn_of_foreign_fmus
 from .common.documented import Documented
 
 

@@ -12,7 +12,7 @@ from ..commands.stability import study_command
 from ..documents.model import Document
 from ..documents.of.stability.figures import SIZE, LoopDiagram, loop_charts
 from ..documents.of.stability.printed import stability_problems
-from ..documents.of.stability.study import decisive_loop, stability_document
+from ..documents.of.stability.study_document import decisive_loop, stability_document
 from ..options.command import write_command
 from ..options.declared.studies import STABILITY, StabilityOptions
 from ..options.option import FilePath

@@ -13,17 +13,17 @@ from ...common.errors import ExitStatus, InputError
 from ...common.paths import names_fmu
 from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
+from ..campaigns.definition.campaign_source import read_source
 from ..campaigns.definition.checks import check_plan
 from ..campaigns.definition.file import SYNTHESIS, read_campaign
 from ..campaigns.definition.home import find_system
 from ..campaigns.definition.plan import read_plan
-from ..campaigns.definition.source import read_source
 from ..compose.files import report_changed_source
 from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
-from ..documents.figures.reading import read_figures
+from ..documents.figures.figure_reader import read_figures
 from ..documents.model import Document
 from ..documents.of.validation import validation_document
 from ..options.declared.library import VALIDATE, ValidateOptions
@@ -39,7 +39,7 @@ from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
-from ..stability.request.reading import read_declaration
+from ..stability.request.loop_declaration import read_declaration
 from ..stability.request.request import Subject, check_loops
 from .common.arguments import path_list
 from .common.documented import Documented

@@ -19,10 +19,10 @@ from ..options.verb import verb
 from ..runtime.system.options import system_options
 from ..studies.flown import StudyCommands
 from ..studies.worst import outcome
-from ..studies.worst.request import MarginRequest, check_options, request_margin
-from ..studies.worst.study import MARGIN, worst_case, worst_margin
+from ..studies.worst.margin_request import MarginRequest, check_options, request_margin
+from ..studies.worst.worst_search import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
-from .common.campaigns import commands_of, read_campaign
+from .common.campaign_options import commands_of, read_campaign
 from .common.studies import Conditions, RequirementResult, conditions, results_folder, store_result
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # numbers to which requirements may refer

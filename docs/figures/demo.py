@@ -9,7 +9,7 @@ from pathlib import Path
 
 from perilune import simulate
 from perilune.analysis.campaigns.definition.plan import BatchPlan, read_plan
-from perilune.analysis.campaigns.execute.results import CampaignResult
+from perilune.analysis.campaigns.execute.campaign_result import CampaignResult
 from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.documents.of.batch.batch import batch_document
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.execute.results import CampaignResult
+from perilune.analysis.campaigns.execute.campaign_result import CampaignResult
 from perilune.analysis.documents.common.page import write_page
 from perilune.analysis.documents.common.panels import swatch
 from perilune.analysis.documents.of.batch.content import BatchContent

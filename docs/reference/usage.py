@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from perilune.analysis.campaigns.definition.source import read_source
+from perilune.analysis.campaigns.definition.campaign_source import read_source
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
-from perilune.analysis.runtime.ssp.description import Component, SystemElement
-from perilune.analysis.runtime.ssp.reading import read_description
+from perilune.analysis.runtime.ssp.ssd_reader import read_description
+from perilune.analysis.runtime.ssp.system_description import Component, SystemElement
 
 
 @dataclass

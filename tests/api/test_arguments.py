@@ -36,7 +36,7 @@ def test_compare_takes_a_list(name, fmus, monkeypatch):
     def read(*_, compare, **__):
         raise AskedError(compare)
 
-    monkeypatch.setattr("perilune.analysis.verbs.common.campaigns.read_plan", read)
+    monkeypatch.setattr("perilune.analysis.verbs.common.campaign_options.read_plan", read)
     with pytest.raises(AskedError) as requested:
         getattr(perilune, name)(SYSTEM, "paper", compare={"guidance": fmus}, **COMPARING[name])
     assert requested.value.args == ({"guidance": ["analytic_guidance"]},)

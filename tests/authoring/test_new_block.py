@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.authoring.block import block_slots, find_smallest_system
+from perilune.analysis.authoring.block_template import block_slots, find_smallest_system
 from perilune.analysis.cli import main
 from tests.support.lengths import either
 from tests.support.loops.exact_margins import crossings

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.documents.figures.scene.declared import SceneFigure
+from perilune.analysis.documents.figures.scene.scene_elements import SceneFigure
 from perilune.analysis.documents.scene.poses import compute_poses
 from perilune.common.paths import FLAVOURS, ROOT
 from tests.support.loops.exact_margins import crossings, disk_margin

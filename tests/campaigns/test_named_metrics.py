@@ -9,11 +9,11 @@ import tomllib
 
 import pytest
 
-from perilune.analysis.campaigns.columns import describe_column, describe_metric
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.campaigns.execute.metadata import campaign_metadata
+from perilune.analysis.campaigns.trial_columns import describe_column, describe_metric
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.columns import describe_column
+from perilune.analysis.campaigns.trial_columns import describe_column
 from perilune.analysis.campaigns.trials import TrialTable, join_trials
 from perilune.common.machine.arrow import table_of
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.evidence.comparison import compare_signal
+from perilune.analysis.evidence.reference_comparison import compare_signal
 from perilune.fmus_src.evidence.manifest import FOLDER
 from tests.evidence.hostile import OUT, experiment, fmu
 from tests.evidence.test_evidence_of_others import STILL

@@ -15,13 +15,13 @@ from hypothesis.strategies import SearchStrategy
 
 from perilune.analysis.campaigns.definition.checks import check_plan
 from perilune.analysis.campaigns.definition.plan import read_plan
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.ssp.archive import SystemArchive, open_system
 from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
 from perilune.analysis.runtime.system.fmu import Fmu
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.analysis.stability.request.reading import read_declaration
+from perilune.analysis.stability.request.loop_declaration import read_declaration
 from perilune.common.errors import InputError
 from tests.fuzz.changes import changed_text, changed_xml, flipped
 from tests.fuzz.originals import CAMPAIGN, SOURCE, SSD, SSD_2, SSV, SSV_2

@@ -11,9 +11,9 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.execute.campaign import LoadedCampaign, open_folder
+from perilune.analysis.campaigns.execute.loaded_campaign import LoadedCampaign, open_folder
 from perilune.analysis.campaigns.execute.runner import merge_rows
-from perilune.analysis.campaigns.folder.manifest import FILE
+from perilune.analysis.campaigns.folder.campaign_manifest import FILE
 from perilune.analysis.cli import main
 from perilune.common.errors import InputError
 

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from pyarrow.compute import field
 
 from perilune.analysis.cli import main
-from perilune.analysis.show.columns import BinnedColumns
+from perilune.analysis.show.binned_columns import BinnedColumns
 from perilune.analysis.show.scale import BARS, BINS, make_scale
 from tests.support.campaigns.show_client import ShowClient
 

@@ -188,7 +188,7 @@ def rewrite(folder, document):
     import pyarrow.parquet
 
     from perilune.analysis.campaigns.folder.provenance import batch_digest
-    from perilune.analysis.campaigns.folder.summary import without_summary
+    from perilune.analysis.campaigns.folder.summary_file import without_summary
 
     (folder / "summary.json").write_text(json.dumps(document))
     digest = batch_digest(without_summary(document))

@@ -14,7 +14,7 @@ from lxml import html
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.documents.figures.declared import LimitsFigure
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.paths import ROOT

@@ -6,7 +6,7 @@ Truth: the declaration as written, and the line number of the wrong element.
 import pytest
 
 import perilune
-from perilune.analysis.runtime.ssp.reading import Reader
+from perilune.analysis.runtime.ssp.ssd_reader import Reader
 from perilune.analysis.runtime.system.options import Layer
 from perilune.analysis.stability.request.declaration import (
     Declaration,
@@ -16,7 +16,7 @@ from perilune.analysis.stability.request.declaration import (
     PointDeclaration,
     Sweep,
 )
-from perilune.analysis.stability.request.reading import read_declaration
+from perilune.analysis.stability.request.loop_declaration import read_declaration
 from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
 from tests.support.loops.exact_systems import ring, with_stability

@@ -12,7 +12,7 @@ import sys
 
 import pytest
 
-from perilune.analysis.authoring.block import block_slots
+from perilune.analysis.authoring.block_template import block_slots
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.common.paths import LAWS, SYSTEMS
 from perilune.fmus_src.catalogue import catalogue

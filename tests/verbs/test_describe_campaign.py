@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import perilune
-from perilune.analysis.authoring.campaign import toml_value
+from perilune.analysis.authoring.campaign_listing import toml_value
 from perilune.analysis.campaigns.definition.file import parse_campaign, read_campaign
 from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.cli import main

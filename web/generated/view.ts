@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/documents/scene/view.py.
 
-import type { Panel } from "./declared";
+import type { Panel } from "./scene_elements";
 
 // A force: values in ``unit``, point and direction of action (body axes), and the plume's ``length`` (m).
 //

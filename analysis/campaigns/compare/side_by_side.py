@@ -13,7 +13,7 @@ import numpy as np
 from ....common.errors import InputError, suggestion
 from ..folder.stored import StoredBatch, read_batch
 from ..lost_trials import lost_lines
-from .comparison import CampaignComparison, Contender
+from .campaign_comparison import CampaignComparison, Contender
 
 DIFFERENCES = {
     "system": "simulate different systems",

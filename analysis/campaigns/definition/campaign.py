@@ -12,7 +12,7 @@ from ....common.bounds import TRIALS
 from ....common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
-from ..draws.declared import Draw, input_names
+from ..draws.interfaces import Draw, input_names
 from ..draws.lookup import Lookup
 from .expressions import Expression
 from .faults import CampaignFault

@@ -14,7 +14,7 @@ from ...runtime.ssp.names import split_name
 from ...runtime.system.checks import check_fault
 from ...runtime.system.fmu import NOT_VARIED, STRUCTURAL
 from ...runtime.system.prepared import PreparedSystem
-from ..draws.declared import input_names
+from ..draws.interfaces import input_names
 from ..draws.lookup import Lookup
 from ..draws.supplied import ALL, stream_column
 from .faults import check_drawn

@@ -13,8 +13,8 @@ import scipy
 from ....common.bounds import GRID_POINTS
 from ....common.errors import InputError
 from ...runtime.loop.elementary import elementary
-from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
 from ..draws.generators import generator
+from ..draws.interfaces import Columns, Continuous, Design, Distribution, Draw, Independent
 from .normals import CorrelatedNormal, Normal
 from .table import TomlTable, choice_of, integer, names, number, numbers
 

@@ -6,16 +6,16 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from ....common.errors import InputError, suggestion
-from ..draws.declared import Draw
+from ..draws.interfaces import Draw
 from ..draws.lookup import Lookup
 from ..draws.supplied import stream_component
 from .campaign import SCHEMES, TRACES, Campaign, Metric, Scatter, Setting, TrialRecord, Variant
+from .campaign_source import read_source_file
 from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .reductions import REDUCTIONS
 from .requirements import read_requirements
-from .source import read_source_file
 from .table import REQUIRED, TomlTable, bound, choice_of, expression, integer, names, number, sequence, text
 
 SYNTHESIS = "network_operator"  # table read by analysis.synthesis.synthesis_file

@@ -9,7 +9,7 @@ from pathlib import Path
 from ....common.errors import InputError
 from ....common.paths import names_fmu
 from ...runtime.ssp.archive import OSP_DESCRIPTION, SystemArchive, open_system, system_names
-from .source import EXTENDS, parse_toml
+from .campaign_source import EXTENDS, parse_toml
 
 FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # in a system's folder, and in an unpacked archive
 

@@ -13,8 +13,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from ..draws.declared import Continuous, Independent
 from ..draws.generators import standard_normals
+from ..draws.interfaces import Continuous, Independent
 from .table import TomlTable, names, number, numbers, sequence
 
 FLAT = 1e-12  # fraction of a covariance's largest eigenvalue; axes with smaller eigenvalues do not vary

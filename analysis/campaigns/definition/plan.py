@@ -21,10 +21,10 @@ from ..draws.generators import stream_numbers
 from ..draws.supplied import SuppliedDraws, read_supplied
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
 from .campaign import Campaign, TrialGroup, Variant, groups_of
+from .campaign_source import CampaignSource, read_source
 from .faults import DrawnFault, fault_columns, fault_of_trials
 from .file import parse_campaign
 from .home import is_called
-from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
 
 

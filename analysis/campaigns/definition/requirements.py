@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from ....common.errors import suggestion
-from ..draws.declared import Design, Draw
+from ..draws.interfaces import Design, Draw
 from .expressions import Expression
 from .table import REQUIRED, TomlTable, choice_of, expression, number, text
 

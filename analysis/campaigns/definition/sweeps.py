@@ -10,7 +10,7 @@ from ....common.bounds import GRID_POINTS
 from ....common.errors import InputError
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import STEP_ROUNDING, SystemOptions
-from ..draws.declared import Draw
+from ..draws.interfaces import Draw
 from .campaign import MAXIMUM_GROUPS, Campaign
 from .distributions import Grid
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ....common.errors import InputError
-from .declared import Columns, Draw, Independent
+from .interfaces import Columns, Draw, Independent
 
 TAIL = 3.6541528853610088  # beyond this value numpy's ziggurat (Marsaglia and Tsang 2000) uses the C library's log1p
 STEP = 2.0**-30

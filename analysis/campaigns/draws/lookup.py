@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from .declared import Formula
+from .interfaces import Formula
 
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
 DIGITS = 16  # hexadecimal digits of SHA-256

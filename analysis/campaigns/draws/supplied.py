@@ -14,7 +14,7 @@ import numpy as np
 from ....common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
 from ....common.errors import InputError, suggestion
 from ....common.regular import read_input
-from .declared import CampaignDraws, input_names
+from .interfaces import CampaignDraws, input_names
 
 if TYPE_CHECKING:  # imported at run time only when a file is read
     import pyarrow

@@ -19,8 +19,8 @@ import numpy as np
 
 from ....common.bounds import TABLE_TRIALS
 from ....common.errors import InputError
-from .declared import CampaignDraws, Columns, Design, designs_of, input_names
 from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
+from .interfaces import CampaignDraws, Columns, Design, designs_of, input_names
 from .supplied import stream_component
 
 

@@ -11,8 +11,8 @@ from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.group import FlightGroup
 from ...runtime.flight.interruptible import StuckError, fly, make_empty_flight, run
 from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, FlightResult
+from ...runtime.instances.fmu_library import LOADING
 from ...runtime.instances.instance import Log
-from ...runtime.instances.library import LOADING
 from ...runtime.process.opening import may_load_here, open_simulation
 from ...runtime.ssp.parameter_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem

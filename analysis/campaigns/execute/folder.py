@@ -10,10 +10,10 @@ import numpy as np
 from ....common.atomic import remove_partial
 from ....common.errors import InputError
 from ..definition.plan import BatchPlan
+from ..folder.campaign_manifest import CONTENTS, FILE, CampaignManifest, read_manifest, remove_contents, store_contents
 from ..folder.draws import read_draws
-from ..folder.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
-from ..folder.manifest import CONTENTS, FILE, CampaignManifest, read_manifest, remove_contents, store_contents
 from ..folder.numbering import Numbering
+from ..folder.shard_files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from .identity import differences
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ....fmus_src.export.identity import guid_of_module
 from ...runtime.system.fmu import Fmu
-from ..folder.manifest import CampaignManifest
+from ..folder.campaign_manifest import CampaignManifest
 
 LIMITS = ("call_timeout", "memory")  # options that may end trials but change no results
 MOST_DIFFERENCES = 3  # most differences named in one line

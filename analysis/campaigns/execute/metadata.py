@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from importlib.metadata import version
 
-from ...runtime.system.arrays.axes import names_of_axes
+from ...runtime.system.arrays.axis_names import names_of_axes
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Metric
 from ..definition.plan import BatchPlan

@@ -23,14 +23,12 @@ from ...runtime.system.options import UNTRUSTED, Trust, Watch
 from ...runtime.system.prepared import PreparedSystem
 from ...runtime.system.series import InputSeries
 from ..definition.campaign import Campaign
+from ..definition.campaign_source import CampaignSource
 from ..definition.file import parse_campaign
 from ..definition.plan import BatchPlan
-from ..definition.source import CampaignSource
 from ..definition.sweeps import with_sweeps
 from ..draws.supplied import SuppliedDraws, part_streams
-from ..folder.draws import read_draws
-from ..folder.files import numbers, read_table
-from ..folder.manifest import (
+from ..folder.campaign_manifest import (
     CONTENTS,
     FILE,
     SAME_VERSION,
@@ -44,7 +42,9 @@ from ..folder.manifest import (
     content_name,
     content_path,
 )
+from ..folder.draws import read_draws
 from ..folder.numbering import shard_size
+from ..folder.shard_files import numbers, read_table
 from ..stored_options import restore_options, store_options
 from .identity import identity_of
 

@@ -13,10 +13,10 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Variant
 from ..definition.checks import check_plan
 from ..definition.plan import BatchPlan
-from ..folder.manifest import read_manifest
+from ..folder.campaign_manifest import read_manifest
 from ..trials import TrialTable
-from .campaign import LoadedCampaign, open_folder
 from .flyer import Flyer, TrialResult, result_of
+from .loaded_campaign import LoadedCampaign, open_folder
 from .plan_manifest import restore
 
 CUT_OFF = ("interrupted", TIMED_OUT)

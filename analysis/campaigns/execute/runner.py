@@ -16,9 +16,9 @@ from ..folder.lock import lock_folder
 from ..folder.numbering import format_shards
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
-from .campaign import LoadedCampaign, open_campaign
-from .flights import fly_shards, task_size
-from .results import CampaignResult
+from .campaign_result import CampaignResult
+from .loaded_campaign import LoadedCampaign, open_campaign
+from .shard_flights import fly_shards, task_size
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 

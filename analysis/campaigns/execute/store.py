@@ -10,8 +10,8 @@ import pyarrow.parquet
 from ....common.errors import InputError
 from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder, Shard
-from ..folder.files import NEW_FOLDER, shard_path, trace_files, with_draws
 from ..folder.numbering import Numbering
+from ..folder.shard_files import NEW_FOLDER, shard_path, trace_files, with_draws
 from ..trials import Trace, TrialTable, join_trials
 
 

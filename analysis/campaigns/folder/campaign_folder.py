@@ -18,7 +18,9 @@ from ....common.errors import InputError
 from ....common.machine.arrow import table_of
 from ..definition.plan import BatchPlan
 from ..trials import Trace, TrialTable
-from .files import (
+from .campaign_manifest import FILE as MANIFEST
+from .provenance import CampaignProvenance, batch_digest
+from .shard_files import (
     COLUMNS,
     FOLDER,
     IDENTITY,
@@ -38,9 +40,7 @@ from .files import (
     trial_table,
     write_parquet,
 )
-from .manifest import FILE as MANIFEST
-from .provenance import CampaignProvenance, batch_digest
-from .summary import SummaryDocument, without_summary
+from .summary_file import SummaryDocument, without_summary
 
 
 class Shard(NamedTuple):

@@ -15,8 +15,8 @@ from ....common.errors import InputError
 from ....common.machine.arrow import numpy_of
 from ....common.regular import check_regular
 from ..draws.table import DrawTable
-from .files import DRAWS, check_names
-from .manifest import COPY_AGAIN
+from .campaign_manifest import COPY_AGAIN
+from .shard_files import DRAWS, check_names
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ import pyarrow.dataset
 from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
-from ..columns import Column, describe_column
 from ..statistics import quantile
+from ..trial_columns import Column, describe_column
 from .campaign_folder import CampaignFolder
-from .files import read_table
 from .provenance import CampaignProvenance
+from .shard_files import read_table
 from .traces import trace_dataset
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # Arrow's message for a missing column

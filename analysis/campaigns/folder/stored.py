@@ -16,7 +16,10 @@ from ..definition.campaign import Metric, TrialGroup, groups_of
 from ..definition.expressions import Expression
 from ..trials import TrialTable, join_trials
 from .campaign_folder import CampaignFolder, Shard
-from .files import (
+from .campaign_manifest import FILE as MANIFEST
+from .campaign_manifest import WRITE
+from .provenance import CampaignProvenance
+from .shard_files import (
     DRAWS,
     FLIGHT,
     FOLDER,
@@ -28,10 +31,7 @@ from .files import (
     read_table,
     trace_files,
 )
-from .manifest import FILE as MANIFEST
-from .manifest import WRITE
-from .provenance import CampaignProvenance
-from .summary import SummaryDocument, read_metrics, read_summary
+from .summary_file import SummaryDocument, read_metrics, read_summary
 
 RESUME = "complete the batch: repeat its command with `resume`"
 

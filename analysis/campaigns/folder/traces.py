@@ -11,7 +11,7 @@ import numpy as np
 
 from ....common.errors import InputError, suggestion
 from .campaign_folder import CampaignFolder
-from .files import NEW_FOLDER, numbers, read_table
+from .shard_files import NEW_FOLDER, numbers, read_table
 
 TIME = "time"
 

@@ -14,14 +14,14 @@ from ...campaigns.definition.checks import check_plan
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.flyer import Flyer
 from ...campaigns.execute.workers import worker_count
-from ...campaigns.folder.files import write_draws
+from ...campaigns.folder.shard_files import write_draws
 from ...runtime.system.prepared import PreparedSystem
 from ..laws.law import law_parameters
 from .checkpoint import read_checkpoint, write_checkpoint
 from .fitness import VARIANT, FlightEvaluator
 from .genetic import Search, SearchState
-from .outcome import SynthesisOutcome, write_log
 from .synthesis_file import Synthesis
+from .synthesis_outcome import SynthesisOutcome, write_log
 
 CHECKPOINT = "checkpoint.json"
 

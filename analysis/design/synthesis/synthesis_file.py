@@ -11,10 +11,10 @@ from typing import Any
 from ....common.errors import InputError
 from ....common.paths import SEARCHES
 from ...campaigns.definition.campaign import Campaign
+from ...campaigns.definition.campaign_source import read_source_file
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import SYNTHESIS, parse_campaign
 from ...campaigns.definition.plan import BatchPlan
-from ...campaigns.definition.source import read_source_file
 from ...campaigns.definition.table import TomlTable, expression, integer, number, text
 from ...runtime.system.options import SystemOptions
 from ..laws.law import NetworkOperator, find_law, law_parameters, read_law

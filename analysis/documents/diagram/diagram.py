@@ -16,9 +16,9 @@ from ...runtime.system.prepared import PreparedSystem
 from .drawing import draw
 from .elk import MISSING, Engine, LayoutError
 from .graph import DiagramBlock
+from .graph_reader import read_graph
 from .layout import lay_out
 from .placement import Arrangement
-from .reading import read_graph
 
 Result = TypeVar("Result")
 MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # limits of a legible diagram; a vector counts as one connection

@@ -10,7 +10,7 @@ from typing import Any
 
 from py_mini_racer import JSEvalException, JSTimeoutException, MiniRacer
 
-from ..interactive.bundles import read_bundle
+from ..interactive.script_bundles import read_bundle
 
 MISSING = (
     "No block diagram: the layout engine is not built (npm was not available). Run `make web`, then this command again."

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from .bundles import policy, read_bundle
 from .charts import PICTURE, Chart
 from .columns import Coarse, Columns
+from .script_bundles import policy, read_bundle
 
 
 class Embedded:

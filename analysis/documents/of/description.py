@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...authoring.campaign import toml_value
+from ...authoring.campaign_listing import toml_value
 from ...runtime.system.feedthrough import Origin
 from ..model import Document, Listing, Node, Text
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from ....common.visible import limit_lines, on_one_line
-from ...evidence.comparison import SignalCheck
+from ...evidence.reference_comparison import SignalCheck
 from ...evidence.reproduction import Reproduction
 from ...evidence.verification import Verification
 from ..common.quantities import number

@@ -12,7 +12,7 @@ from ..chart.panel import chart_panel, stack_panel, wide_figure
 from ..chart.write_svg import no_trials
 from ..common.page import write_page
 from ..common.panels import HALF_WIDTH, PANEL_WIDTH, FigurePanel, swatch
-from ..interactive.bundles import MISSING
+from ..interactive.script_bundles import MISSING
 from ..model import Document, Medium, Table, select
 from ..pictures import Figure
 from .cell_markup import cell_class, cell_markup, entry_markup, is_number, legend_swatch, rich_markup

@@ -22,7 +22,7 @@ from ..model import (
     Verdict,
     select,
 )
-from .columns import listing_lines, wrap_line
+from .word_columns import listing_lines, wrap_line
 from .words import cell_text, heads_of, number_line, rich_text, rows_of
 
 CONTINUED = 4  # columns by which further lines of a statement are indented

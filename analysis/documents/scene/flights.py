@@ -13,7 +13,7 @@ import numpy as np
 from ...runtime.flight.results import Flight
 from ..common.colours import COLOURS
 from ..figures.declared import Signal
-from ..figures.scene.declared import Attitude, Body, Position, SceneFigure, Site
+from ..figures.scene.scene_elements import Attitude, Body, Position, SceneFigure, Site
 from .notes import frame_note, size_note
 from .poses import LocalFrame, attitudes, local_frame, positions, signals_of
 from .quaternions import normalise

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...runtime.flight.results import FlightResult
 from ..common.quantities import display_unit, number
-from ..figures.scene.declared import Arrow, Body, SceneFigure, Thrust, ThrustAxis
+from ..figures.scene.scene_elements import Arrow, Body, SceneFigure, Thrust, ThrustAxis
 
 
 def scene_notes(scene: SceneFigure, result: FlightResult) -> list[str]:

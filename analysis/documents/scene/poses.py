@@ -9,7 +9,7 @@ import numpy as np
 
 from ...runtime.flight.results import Flight
 from ..figures.declared import Signal
-from ..figures.scene.declared import (
+from ..figures.scene.scene_elements import (
     Angles,
     Attitude,
     Body,

@@ -17,7 +17,7 @@ from ..common.colours import COLOURS, HUES
 from ..common.quantities import display_unit
 from ..common.round_body import track_normal
 from ..figures.declared import Signal
-from ..figures.scene.declared import (
+from ..figures.scene.scene_elements import (
     ARROW,
     GROUND,
     Arrow,

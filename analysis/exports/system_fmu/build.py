@@ -23,13 +23,13 @@ from ...runtime.ssp.archive import SystemArchive
 from .choices import Preparation, candidate_name, check_slots, find_default
 from .component_source import file_name, write_component_header
 from .dependence import find_dependencies
+from .documentation import PAGE, README, system_page, system_readme
+from .fmu_variables import FmuVariable, Variables
 from .model import SystemModel
-from .page import PAGE, README, system_page, system_readme
+from .one_fmu import OneFmu
 from .parameter_sets import ConvertedSets, other_parameter_sets
 from .reference import find_default_program, record_reference
-from .request import OneFmu
 from .system_in_c import write_system
-from .variables import FmuVariable, Variables
 
 
 def build_system_fmu(

@@ -14,7 +14,7 @@ from ....fmus_src.export.native_fmu import read_wrapper
 from ....fmus_src.export.write.names import RESERVED
 from ...runtime.flight.instructions import InstructionList
 from ...runtime.flight.orders.injections import Injection
-from ...runtime.flight.orders.rows import Unloaded
+from ...runtime.flight.orders.instruction_rows import Unloaded
 from ...runtime.flight.program import Layout, build_program
 from ...runtime.flight.selection import find_variables
 from ...runtime.loop import arrays, codes

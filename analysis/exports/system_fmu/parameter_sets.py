@@ -9,11 +9,11 @@ from pathlib import PurePosixPath
 
 from ....common.errors import InputError
 from ....fmus_src.evidence.parameter_set import write_parameter_set
-from ...runtime.ssp.description import Element, SystemElement
 from ...runtime.ssp.parameter_values import ParameterValue
+from ...runtime.ssp.system_description import Element, SystemElement
 from .choices import Preparation
+from .fmu_variables import FmuVariable, Variables
 from .model import SystemModel
-from .variables import FmuVariable, Variables
 
 RESOURCES = "resources/"
 

@@ -11,8 +11,8 @@ from ....fmus_src.evidence.experiments import Experiment, write_experiments
 from ....fmus_src.evidence.manifest import CSV, EXPERIMENTS, FOLDER, Related
 from ....fmus_src.evidence.recorded import write_table
 from ...runtime.process.opening import open_simulation
+from .fmu_variables import FmuVariable
 from .model import ChoiceProgram
-from .variables import FmuVariable
 
 MOST_ROWS = 500
 OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"

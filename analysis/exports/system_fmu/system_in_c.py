@@ -11,12 +11,12 @@ from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, 
 from ...runtime.flight.instructions import write_renewal
 from ...runtime.flight.orders.slots import BASE
 from ...runtime.ssp.kinds import PARAMETERS
+from .choice_statements import ChoiceStatements, quoted
 from .choices import parameter_chain
 from .component_source import file_name
+from .fmu_variables import FmuVariable, Variables
 from .model import ChoiceProgram, SystemModel
-from .statements import ChoiceStatements, quoted
 from .tables_in_c import write_tables
-from .variables import FmuVariable, Variables
 from .variables_in_c import (
     convert_along_chain,
     write_parameters,

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from ....fmus_src.export.write.layout import CodeLines
 from ....fmus_src.export.write.tables import write_ranges
 from ....fmus_src.start_values import LARGEST
+from .choice_statements import quoted
+from .fmu_variables import FmuVariable, Variables
 from .model import SystemModel
-from .statements import quoted
-from .variables import FmuVariable, Variables
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from ....fmus_src.export.write.layout import CodeLines
 from ....fmus_src.export.write.names import comment, literal
 from ...runtime.system.network import Network, NodeLink
 from ...runtime.system.passing.parameters import numbers
+from .choice_statements import map_value
+from .fmu_variables import C_TYPES, PassedParameter, Variables
 from .model import SystemModel
-from .statements import map_value
-from .variables import C_TYPES, PassedParameter, Variables
 
 
 def write_signals(model: SystemModel) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated, TypedDict
 from ..choices import Engine
 from ..declaration import Argument, NoOptions, Verb
 from ..option import EMPTY, FilePath, Option
-from ..system import (
+from ..simulation_options import (
     Overwrite,
     ReportFiles,
     RequireOptions,

@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypedDict
 from ....common.paths import Build
 from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
-from ..system import AssemblyOptions, ReportFiles, SystemKeywords, TrustOptions
+from ..simulation_options import AssemblyOptions, ReportFiles, SystemKeywords, TrustOptions
 
 PATHS = Argument(
     "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True

@@ -8,7 +8,7 @@ from typing import Annotated, TypedDict
 from ..choices import MarginKind
 from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
-from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemKeywords, Workers
+from ..simulation_options import Overwrite, ReportFiles, RequireOptions, Seed, SystemKeywords, Workers
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
 
 PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # campaign of the examples

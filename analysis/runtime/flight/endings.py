@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import fmi2
 
+from ..instances.fmu_library import FUNCTION_NAMES
 from ..instances.instance import Instance, status_word
-from ..instances.library import FUNCTION_NAMES
 from ..loop import arrays, codes
 from ..loop.library import load_library
 from ..ssp.names import split_name

@@ -12,7 +12,7 @@ from ..system.schedule import Schedule
 from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
-from .orders.rows import Callee, InstructionRows
+from .orders.instruction_rows import Callee, InstructionRows
 from .orders.texts import TextSlots
 
 Orders = Fmi2Orders | Fmi3Orders

@@ -25,9 +25,9 @@ from .orders.exchanged import Exchanged
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
 from .orders.injections import Injection
+from .orders.instruction_rows import Callee
 from .orders.placing_fmi2 import ComponentSlots, place_component
 from .orders.placing_fmi3 import TransferPlacing
-from .orders.rows import Callee
 from .orders.slots import Slots
 from .orders.texts import TextSlots
 from .orders.transfers import ComponentTransfers, TransferTable

@@ -22,7 +22,7 @@ from ...options.fault import Fault
 from ..ssp.names import elements, split_name, vectors
 from ..ssp.parameter_values import ParameterValue
 from ..ssp.types import WHOLE
-from ..system.arrays.axes import names_of_axes
+from ..system.arrays.axis_names import names_of_axes
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
 from ..system.passing.settings import SystemSettings

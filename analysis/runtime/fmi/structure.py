@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from ....common.errors import InputError
 from ..ssp.archive import SystemArchive
-from ..ssp.description import Binding, Element, SystemDescription, SystemElement
 from ..ssp.parameter_sets import Assignment, read_binding
+from ..ssp.system_description import Binding, Element, SystemDescription, SystemElement
 
 
 def structural_sizes(

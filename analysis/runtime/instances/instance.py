@@ -17,7 +17,7 @@ from ....common.errors import InputError
 from ....common.visible import visible, visible_line
 from ..system.fmu import Fmu
 from ..system.options import LOG_LEVELS, SAID_FROM
-from .library import LOADING, Library, acquire, release
+from .fmu_library import LOADING, Library, acquire, release
 from .slaves import Fmi3Slave, Slave
 
 MOST_MESSAGES = 1000  # messages of a component in a simulation

@@ -17,8 +17,8 @@ from fmpy.fmi1 import FMICallException
 
 from ..fmi.variable import ScalarVariable
 from ..system.fmu import Fmu
+from .fmu_library import LOADING
 from .instance import Instance, instantiate
-from .library import LOADING
 from .renewal import RESETS, Renewal, ResetVerdict, store_verdict, verdict_in_cache
 from .traces import read_traces
 from .trial import KINDS, Number, begin, declared, read, step

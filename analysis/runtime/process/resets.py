@@ -13,8 +13,8 @@ from ..system.fmu import Fmu
 from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
 from . import messages
+from .child_connection import ChildConnection, ChildEndedError, Watchdog
 from .children import begin_child
-from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 
 DIFFERS = "two processes simulate it with different results"

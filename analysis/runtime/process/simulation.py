@@ -23,7 +23,7 @@ from ..flight.selection import check_replaced
 from ..ssp.parameter_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
-from .connection import ChildEndedError, ServerEndedError
+from .child_connection import ChildEndedError, ServerEndedError
 from .messages import SERVER_ENDED
 from .resets import TrialWatch, find_verdicts, warn_of_processes
 from .shared_recorder import SharedRecorder

@@ -18,8 +18,8 @@ from ..instances.renewal import ResetVerdict
 from ..ssp.parameter_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
+from .child_connection import ChildConnection, ChildEndedError, Watchdog
 from .children import begin_child
-from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
 

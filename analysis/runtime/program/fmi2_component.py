@@ -11,7 +11,7 @@ from ..fmi.variable import ScalarVariable
 from ..system.fmu import Fmu
 from .component import ComponentInstance, FailedError, Sample, Samples, TerminationError
 from .numbers import as_stored
-from .parameters import Start, solver_tolerance
+from .start_values import Start, solver_tolerance
 from .times import is_within
 
 CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean", "String": "String"}

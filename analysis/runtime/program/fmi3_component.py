@@ -12,7 +12,7 @@ from ..system.fmu import Fmu
 from .component import ComponentInstance, Sample, Samples
 from .exchange import arrays_of
 from .numbers import as_stored
-from .parameters import Start, solver_tolerance
+from .start_values import Start, solver_tolerance
 from .stepping import enter_step_mode, step_to
 
 

@@ -15,10 +15,10 @@ from .exchange import Exchange
 from .faults import Faults
 from .fmi2_component import Fmi2Component
 from .fmi3_component import Fmi3Component
-from .parameters import find_starts
 from .reference_loop import Jacobi, Sequential
 from .rows import Rows
 from .signals import Signals
+from .start_values import find_starts
 
 LOOPS = {"sequential": Sequential, "jacobi": Jacobi}
 

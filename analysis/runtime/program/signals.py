@@ -14,7 +14,7 @@ from .connection import carry
 from .exchange import Exchange
 from .faults import Faults
 from .numbers import check_output
-from .parameters import start_of
+from .start_values import start_of
 
 
 class Signals:

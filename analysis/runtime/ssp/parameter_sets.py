@@ -10,10 +10,10 @@ from lxml import etree
 from ....common.errors import InputError
 from .archive import SystemArchive
 from .conversions import Transformation, Unit, check_type, read_transformation, units_of_document
-from .description import Binding
 from .dimensions import Shape, element_name, indices
 from .documents import check_schema, child, children, read_document, signatures, tag
 from .parameter_values import ParameterValue, read_values
+from .system_description import Binding
 from .types import RUNTIME_TYPES, runtime_type
 
 

@@ -10,7 +10,7 @@ from fmpy.util import auto_interval
 from ....common.errors import InputError
 from ..fmi.proposals import proposed_step
 from ..fmi.representations import TEXTS
-from ..ssp.description import Component, Connector, SystemDescription, SystemElement
+from ..ssp.system_description import Component, Connector, SystemDescription, SystemElement
 from .fmu import Fmu
 from .options import STEP_ROUNDING, SystemOptions
 

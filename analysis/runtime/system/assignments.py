@@ -12,18 +12,18 @@ from ..fmi.representations import REPRESENTATIONS
 from ..fmi.variable import ScalarVariable
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import Transformation
-from ..ssp.description import Binding, Component, SystemElement
 from ..ssp.dimensions import element_names, text_of
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from ..ssp.parameter_sets import Assignment, Notes, read_binding
 from ..ssp.parameter_values import ParameterValue, parse_value
+from ..ssp.system_description import Binding, Component, SystemElement
 from ..ssp.types import WHOLE
 from .network import Network, Node
 from .options import SystemOptions
+from .passing.connection_units import check_offset
 from .passing.parameters import pass_parameters
 from .passing.settings import SystemSettings
-from .passing.units import check_offset
 
 SETTABLE = (*PARAMETERS, "input")
 SINGLE = "`set`"  # origin of single values, unless a file sets them

@@ -12,8 +12,8 @@ from ....fmus_src.roles import SAMPLE_PERIOD
 from ...options.fault import Fault, number_text
 from ..fmi.representations import TEXTS
 from ..fmi.variable import ScalarVariable, variables_of
-from ..ssp.description import Component
 from ..ssp.names import split_name
+from ..ssp.system_description import Component
 from .network import Network
 from .options import STEP_ROUNDING
 from .passing.settings import SystemSettings

@@ -12,8 +12,8 @@ from ....common.regular import names_file
 from ....fmus_src.export.available import find_fmu, fmu_flavours
 from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_key, parameters_key, read_fmu, use_key
-from ..ssp.description import Component, SystemDescription
 from ..ssp.parameter_sets import Assignment, read_parameter_file
+from ..ssp.system_description import Component, SystemDescription
 from .arrays.sizes import Sizes, assigned_values
 from .assignments import single_value
 from .checks import missing_fmu, unfit

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from ....common.errors import suggestion
 from ..ssp.conversions import IDENTITY, Unit, check_type
-from ..ssp.description import (
+from ..ssp.kinds import PARAMETERS, can_connect
+from ..ssp.system_description import (
     Component,
     Connection,
     Connector,
@@ -17,11 +18,10 @@ from ..ssp.description import (
     SystemDescription,
     SystemElement,
 )
-from ..ssp.kinds import PARAMETERS, can_connect
 from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
 from .network import Network, Node, NodeLink
-from .passing.units import convert_units
+from .passing.connection_units import convert_units
 
 SUMMED = ("Real", "Integer")
 # Different types of source and target that are compatible.

@@ -22,7 +22,7 @@ from ....common.machine.os_errors import is_of_machine, reason_of, remedy_of
 from ....common.scratch import make_folder
 from ....common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ....fmus_src.own_digests import is_own
-from ..fmi import description as fmi3
+from ..fmi import model_description as fmi3
 from ..fmi.quantities import complete_quantities
 from ..fmi.variable import ScalarVariable, elements_of, variables_of
 from ..ssp.conversions import Unit, units_of_fmu

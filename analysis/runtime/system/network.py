@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from ....common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
-from ..ssp.description import Component, SystemDescription, SystemElement
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
+from ..ssp.system_description import Component, SystemDescription, SystemElement
 from .fmu import Fmu
 
 

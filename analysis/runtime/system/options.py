@@ -10,10 +10,10 @@ from typing import Any, Unpack, cast, get_args
 
 from ....common.errors import InputError, suggestion
 from ....common.paths import Build
-from ...options import system as declared
+from ...options import simulation_options as declared
 from ...options.choices import FUSED, LogLevel
 from ...options.option import SetValue, options_of
-from ...options.values import complete_options
+from ...options.option_values import complete_options
 
 STEP_ROUNDING = 1e-9  # fraction of a step by which a time, a period or a range may deviate from a multiple
 
@@ -89,7 +89,7 @@ class _Keywords(declared.SystemKeywords, total=False):
 
 @dataclass(frozen=True, init=False)
 class SystemOptions(Trust, Layer):
-    """All system options, in the groups of their declaration in `options/system.py`.
+    """All system options, in the groups of their declaration in `options/simulation_options.py`.
 
     In ``chosen``, None has these meanings: for ``algorithm``, the algorithm in the system's description, else
     sequential; for ``flavour``, native FMUs if they are built; for ``open_inputs``, ``refuse`` for a system and

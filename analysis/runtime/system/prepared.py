@@ -11,10 +11,10 @@ from ....common.collection import no_collection
 from ....common.errors import InputError, suggestion
 from ...options.choices import SEQUENTIAL
 from ..ssp.archive import SystemArchive, open_system, read_fmu
-from ..ssp.description import SystemElement
-from ..ssp.reading import read_description
+from ..ssp.ssd_reader import read_description
+from ..ssp.system_description import SystemElement
 from .alone import describe_alone
-from .arrays.axes import read_frames
+from .arrays.axis_names import read_frames
 from .arrays.crosswise import crosswise_notes
 from .arrays.elements import expand_arrays
 from .assignments import collect_settings

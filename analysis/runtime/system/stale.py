@@ -12,9 +12,9 @@ from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.sources import find_changed_source
 from ...options.option import SetValue
 from ..ssp.archive import open_system
-from ..ssp.description import Component, SystemElement
 from ..ssp.parameter_sets import Assignment, read_parameter_file
-from ..ssp.reading import read_description
+from ..ssp.ssd_reader import read_description
+from ..ssp.system_description import Component, SystemElement
 from .assignments import single_value
 from .options import SystemOptions
 

@@ -11,14 +11,14 @@ from ....common.errors import InputError, suggestion
 from ...campaigns.definition.checks import check_plan
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...runtime.ssp.archive import open_system
-from ...runtime.ssp.description import SystemDescription
-from ...runtime.ssp.reading import read_description
+from ...runtime.ssp.ssd_reader import read_description
+from ...runtime.ssp.system_description import SystemDescription
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from .channels import channels_of
 from .declaration import Declaration, LoopDeclaration, PointDeclaration
-from .reading import read_declaration
+from .loop_declaration import read_declaration
 
 
 @dataclass(frozen=True)

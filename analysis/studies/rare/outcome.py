@@ -13,7 +13,7 @@ import numpy as np
 from ....common.percent import short_percent
 from ..failure import Failure
 from ..flown import FlightDocument, StudyResult, strict_number
-from ..units import unit_of_expression
+from ..study_units import unit_of_expression
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .uncertainty import CONFIDENCE, significant_digits
 

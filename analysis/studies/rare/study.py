@@ -10,9 +10,9 @@ from ....common.errors import InputError
 from ...campaigns.definition.plan import BatchPlan
 from ..draw_space import DrawSpace
 from ..failure import failure_of
-from ..flights import SampleFlights
 from ..flown import Flown
-from ..units import units_of
+from ..sample_flights import SampleFlights
+from ..study_units import units_of
 from .conditional_sampling import Points
 from .outcome import RareOutcome
 from .subset_simulation import StalledLevelError, subset_simulation

@@ -16,17 +16,17 @@ from ....common.family.pools import process_pool
 from ....common.progress import progress_bar
 from ...campaigns.definition.checks import check_draws
 from ...campaigns.definition.plan import BatchPlan
-from ...campaigns.draws.declared import Columns
+from ...campaigns.draws.interfaces import Columns
 from ...campaigns.draws.supplied import Streams
 from ...campaigns.execute.workers import worker_count
 from ...stability.dispersion import models_of_trial
 from ...stability.loops.margin_values import LoopMargins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
-from ..flights import plan_of_samples, study_provenance
 from ..noise import make_samples, noise_of
+from ..sample_flights import plan_of_samples, study_provenance
+from .margin_request import MarginRequest
 from .objective import margin_columns
-from .request import MarginRequest
 
 
 class MarginSamples(NamedTuple):

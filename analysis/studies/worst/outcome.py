@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..flown import FlightDocument, StudyResult
-from ..units import unit_of_expression
+from ..study_units import unit_of_expression
 from .objective import Objective
 from .realisations import ONE, FreshNoise, Realisations
 from .search import SearchPhase

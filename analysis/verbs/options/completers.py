@@ -11,8 +11,8 @@ from ....common.errors import InputError
 from ....common.paths import LAWS, SEARCHES
 from ....fmus_src.export.available import fmu_flavours
 from ...runtime.ssp.archive import SystemArchive, open_system, system_names
-from ...runtime.ssp.description import Component
-from ...runtime.ssp.reading import read_description
+from ...runtime.ssp.ssd_reader import read_description
+from ...runtime.ssp.system_description import Component
 
 SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "templates" / "slots"
 

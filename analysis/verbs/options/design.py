@@ -17,7 +17,7 @@ from ...design.trajectories.vehicle import (
 from ...options.declaration import Argument, Verb
 from ...options.declared.campaigns import CAMPAIGN, SYSTEM
 from ...options.option import FilePath, Option
-from ...options.system import JsonFile, ReportFiles, Seed, SystemKeywords
+from ...options.simulation_options import JsonFile, ReportFiles, Seed, SystemKeywords
 
 MOST_INTERVALS = 100_000
 NO_PLAN = "no such plan exists, or it needs more propellant than is on board"

@@ -13,7 +13,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.execute import campaign as opening
+from perilune.analysis.campaigns.execute import loaded_campaign as opening
 from perilune.common.paths import ROOT
 
 SYSTEM = "lunar_terminal_guidance"

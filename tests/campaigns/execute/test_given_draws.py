@@ -13,7 +13,7 @@ from perilune.analysis.campaigns.definition.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.studies.draw_space import DrawSpace
-from perilune.analysis.studies.flights import SampleFlights
+from perilune.analysis.studies.sample_flights import SampleFlights
 from perilune.common.errors import InputError
 from tests.support.foreign.odd_fmu import odd_system
 

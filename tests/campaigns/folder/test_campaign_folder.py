@@ -12,10 +12,10 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.execute.campaign import read_folder
+from perilune.analysis.campaigns.execute.loaded_campaign import read_folder
 from perilune.analysis.campaigns.execute.store import ShardTable
 from perilune.analysis.campaigns.folder.stored import read_batch
-from perilune.analysis.show.campaign import open_campaign
+from perilune.analysis.show.opened_campaign import open_campaign
 from perilune.common.errors import InputError
 from tests.support.pages.comparison_samples import sample_batch, write_sample
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.folder.files import write_draws
+from perilune.analysis.campaigns.folder.shard_files import write_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from tests.support.pages.comparison_samples import SIGNALS, sample_batch, write_sample
 

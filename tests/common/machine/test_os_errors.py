@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from perilune.analysis.verbs.common.campaigns import resume_hint
+from perilune.analysis.verbs.common.campaign_options import resume_hint
 from perilune.common.errors import EndedError
 from perilune.common.machine.os_errors import REMEDIES, line_of
 

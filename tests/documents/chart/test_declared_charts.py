@@ -11,7 +11,7 @@ import pytest
 
 import perilune
 from perilune.analysis.documents.figures.declared import BandFigure, CurveFigure, ErrorFigure
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.documents.chart.matplotlib_histories import band_charts, curve_charts, error_charts

@@ -3,7 +3,7 @@
 import pytest
 
 from perilune.analysis.documents.diagram.elk import Engine
-from perilune.analysis.documents.interactive.bundles import read_bundle
+from perilune.analysis.documents.interactive.script_bundles import read_bundle
 from tests.support.pages.scripts import require_scripts
 
 

@@ -14,7 +14,7 @@ from matplotlib import image
 from perilune.analysis.cli import main
 from perilune.analysis.documents.diagram import diagram, elk
 from perilune.analysis.documents.diagram.elk import MISSING
-from perilune.analysis.documents.interactive import bundles
+from perilune.analysis.documents.interactive import script_bundles
 from perilune.common.paths import ROOT, SYSTEMS
 from tests.support.lengths import either
 from tests.support.pages.browser import start
@@ -61,7 +61,7 @@ def test_tables_have_every_block_and_connection(page_of):
 
 
 def test_without_the_bundle_a_sentence_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(bundles, "BUNDLES", tmp_path)
+    monkeypatch.setattr(script_bundles, "BUNDLES", tmp_path)
     page = tmp_path / "page.html"
     assert main(["describe", SMALL, "--report", str(page)]) == 0
     text = page.read_text(encoding="utf-8")

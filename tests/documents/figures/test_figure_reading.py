@@ -18,7 +18,7 @@ from perilune.analysis.documents.figures.declared import (
     PulsesFigure,
     UnavailableFigure,
 )
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.flight.program import make_layout
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions

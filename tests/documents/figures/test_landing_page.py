@@ -10,7 +10,7 @@ import pytest
 
 import perilune
 from perilune.analysis.documents.figures.declared import BudgetFigure, LimitsFigure, PhasesFigure
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.documents.of.simulation.figures.limits import is_met
 from perilune.analysis.documents.of.simulation.figures.phase_figure import (
     amount,

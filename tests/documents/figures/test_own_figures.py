@@ -13,7 +13,7 @@ from lxml import etree, html
 
 import perilune
 from perilune.analysis.documents.figures.declared import PulsesFigure, Signal, UnavailableFigure
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.documents.run_page import write_run_report
 from tests.support.documents.subsections import figure_sections, joint_findings

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from docs.reference.formats.pages import format_pages
 from perilune.analysis.documents.common.colours import HUES
+from perilune.analysis.documents.figures.figure_reader import BUDGET, FOLDED, GROUP, READERS
 from perilune.analysis.documents.figures.history_readers import BAND, CURVE
-from perilune.analysis.documents.figures.reading import BUDGET, FOLDED, GROUP, READERS
 from perilune.analysis.documents.figures.scene.arrow_reader import ARROW_OPTIONAL, ARROW_REQUIRED
 from perilune.analysis.documents.figures.scene.body_reader import BODY, JETS, NOZZLE, PANEL
-from perilune.analysis.documents.figures.scene.declared import ARROW, GROUND, SHAPES
 from perilune.analysis.documents.figures.scene.reader import KINDS, SCENE, SPHERE
+from perilune.analysis.documents.figures.scene.scene_elements import ARROW, GROUND, SHAPES
 from perilune.analysis.documents.figures.signal_reader import ROWS
 from perilune.common.paths import ROOT, SYSTEMS
 

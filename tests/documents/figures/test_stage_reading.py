@@ -24,7 +24,7 @@ from perilune.analysis.documents.figures.declared import (
     PhasesFigure,
     UnavailableFigure,
 )
-from perilune.analysis.documents.figures.reading import read_figures
+from perilune.analysis.documents.figures.figure_reader import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError

@@ -9,8 +9,8 @@ import re
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.documents.interactive.bundles import read_bundle
 from perilune.analysis.documents.interactive.embedded import Embedded
+from perilune.analysis.documents.interactive.script_bundles import read_bundle
 from tests.support.pages.scripts import require_scripts
 
 NAMES = st.text(st.characters(exclude_categories=("Cs",)))

@@ -5,7 +5,7 @@ Truth: the licence files of the packages, and names that remain in their minifie
 
 import pytest
 
-from perilune.analysis.documents.interactive.bundles import BUNDLES, read_bundle
+from perilune.analysis.documents.interactive.script_bundles import BUNDLES, read_bundle
 from tests.support.pages.scripts import require_scripts
 
 PACKAGES = BUNDLES.parent / "node_modules"

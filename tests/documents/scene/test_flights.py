@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.documents.figures.scene.declared import Site
+from perilune.analysis.documents.figures.scene.scene_elements import Site
 from perilune.analysis.documents.scene.flights import RecordedFlight, flights_view
 from perilune.analysis.documents.scene.view import FlightName
 from tests.support.scenes.descent import descent

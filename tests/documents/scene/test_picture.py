@@ -9,7 +9,14 @@ import pytest
 from markupsafe import Markup
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.documents.figures.scene.declared import SHAPES, Arrow, Cartesian, Panel, Quaternion, Surface
+from perilune.analysis.documents.figures.scene.scene_elements import (
+    SHAPES,
+    Arrow,
+    Cartesian,
+    Panel,
+    Quaternion,
+    Surface,
+)
 from perilune.analysis.documents.scene.camera import first_camera
 from perilune.analysis.documents.scene.painting import Stroke, in_order
 from perilune.analysis.documents.scene.picture import draw_ends, draw_scene

@@ -10,7 +10,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.documents.figures.scene.declared import Angles, Geographic, Quaternion, ThrustAxis, WindAngles
+from perilune.analysis.documents.figures.scene.scene_elements import (
+    Angles,
+    Geographic,
+    Quaternion,
+    ThrustAxis,
+    WindAngles,
+)
 from perilune.analysis.documents.scene.poses import compute_poses
 from perilune.fmus_src.mathlib.entry.motion import body_axes
 from perilune.fmus_src.mathlib.vectors import vector as kernel_vector

@@ -9,8 +9,8 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.documents.figures.declared import UnavailableFigure
-from perilune.analysis.documents.figures.reading import read_figures
-from perilune.analysis.documents.figures.scene.declared import (
+from perilune.analysis.documents.figures.figure_reader import read_figures
+from perilune.analysis.documents.figures.scene.scene_elements import (
     Angles,
     Cartesian,
     Geographic,

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import perilune
-from perilune.analysis.documents.figures.scene.declared import Cartesian, SceneFigure
+from perilune.analysis.documents.figures.scene.scene_elements import Cartesian, SceneFigure
 from perilune.analysis.documents.scene.notes import scene_notes
 from perilune.analysis.documents.scene.view import remaining_pulses, scene_view
 from perilune.fmus_src.mathlib.actuators.jets import jet_strength, jet_wrench
@@ -189,7 +189,7 @@ def test_a_page_with_a_scene_stands_alone_and_is_the_same_each_time(tmp_path):
 
 
 def test_without_its_script_a_page_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("perilune.analysis.documents.interactive.bundles.BUNDLES", tmp_path)
+    monkeypatch.setattr("perilune.analysis.documents.interactive.script_bundles.BUNDLES", tmp_path)
     page = page_of(tmp_path / "a.html", *descent())
     assert "There is no three-dimensional view. The scripts of pages are not built" in text_of(page)
     assert not parse(page).xpath("//script")

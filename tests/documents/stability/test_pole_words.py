@@ -11,7 +11,7 @@ import pytest
 
 from perilune.analysis.documents.common.quantities import NONE
 from perilune.analysis.documents.of.stability.parts import modes
-from perilune.analysis.documents.of.stability.words import left_out
+from perilune.analysis.documents.of.stability.study_cells import left_out
 from perilune.analysis.documents.render.words import cell_text, rich_text
 from perilune.analysis.stability.loops.encirclements import encirclements
 from perilune.analysis.stability.results.responses import Mode

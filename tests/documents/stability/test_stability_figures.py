@@ -32,7 +32,7 @@ from perilune.analysis.documents.of.stability.charts.poles import thin
 from perilune.analysis.documents.of.stability.charts.sets import margin_chart, sweep_charts
 from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, overview_figures
 from perilune.analysis.documents.of.stability.parts import modes
-from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
+from perilune.analysis.documents.of.stability.study_cells import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
 from perilune.analysis.stability.loops.margin_values import MarginQuantity
 from perilune.analysis.stability.loops.readings import FrequencyResponse

@@ -10,7 +10,7 @@ import pytest
 import scipy
 
 from perilune.analysis.documents.of.reserve import relative_reserve
-from perilune.analysis.documents.of.stability.study import stability_document
+from perilune.analysis.documents.of.stability.study_document import stability_document
 from perilune.analysis.documents.of.stability.tightest import tightest
 from perilune.analysis.documents.render.terminal import document_lines
 from perilune.analysis.stability.results.requirement import Scope

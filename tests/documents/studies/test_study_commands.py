@@ -66,7 +66,7 @@ def test_a_page_that_cannot_be_written_is_refused_before_a_flight(
     def fly(*_, **__):
         raise AssertionError("it flew")
 
-    monkeypatch.setattr("perilune.analysis.studies.flights.SampleFlights.fly", fly)
+    monkeypatch.setattr("perilune.analysis.studies.sample_flights.SampleFlights.fly", fly)
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("mine")
     assert main([*line_of(linear, name), "--report", str(tmp_path / target)]) == 2

@@ -14,8 +14,8 @@ from fmpy.validation import validate_fmu
 
 import perilune
 from perilune.analysis.exports.system_fmu.choices import Preparation
+from perilune.analysis.exports.system_fmu.fmu_variables import Variables
 from perilune.analysis.exports.system_fmu.model import SystemModel
-from perilune.analysis.exports.system_fmu.variables import Variables
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.fmus_src.catalogue import catalogue

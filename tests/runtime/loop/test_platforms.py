@@ -18,7 +18,7 @@ import pytest
 from perilune.analysis.runtime.flight.base_simulation import NOTHING
 from perilune.analysis.runtime.flight.recorder import rows_between
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.instances.library import FUNCTION_NAMES
+from perilune.analysis.runtime.instances.fmu_library import FUNCTION_NAMES
 from perilune.analysis.runtime.loop import library
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -13,8 +13,8 @@ from types import SimpleNamespace
 import pytest
 
 from perilune.analysis.runtime.process import channel, messages
-from perilune.analysis.runtime.process import connection as module
-from perilune.analysis.runtime.process.connection import ChildConnection, ChildEndedError, Watchdog
+from perilune.analysis.runtime.process import child_connection as module
+from perilune.analysis.runtime.process.child_connection import ChildConnection, ChildEndedError, Watchdog
 
 ANSWERS = {
     "no kind": b"x" + bytes(8),

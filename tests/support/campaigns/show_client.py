@@ -10,7 +10,7 @@ from typing import Any
 from httpx import ASGITransport, AsyncClient, Response
 
 from perilune.analysis.show.app import Service, make_app
-from perilune.analysis.show.campaign import open_campaign
+from perilune.analysis.show.opened_campaign import open_campaign
 
 AUTHORITY, TOKEN = "127.0.0.1:4711", "right-token"
 COOKIE = f"perilune-4711={TOKEN}"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.documents.interactive.bundles import MISSING, read_bundle
+from perilune.analysis.documents.interactive.script_bundles import MISSING, read_bundle
 from perilune.common.paths import ROOT
 
 COMMAND = "from perilune.analysis.cli import run; run()"

@@ -1,6 +1,6 @@
 """Tables of trials for tests of their readers."""
 
-from perilune.analysis.campaigns.columns import Column
+from perilune.analysis.campaigns.trial_columns import Column
 from perilune.analysis.campaigns.trials import TrialTable
 
 UNITS = {"metric.miss": "m", "metric.mass": "kg"}

@@ -12,7 +12,7 @@ from fmpy.fmi2 import FMU2Slave
 from fmpy.logging import addLoggerProxy
 
 from perilune.analysis.exports.system_fmu.build import build_system_fmu
-from perilune.analysis.exports.system_fmu.request import OneFmu
+from perilune.analysis.exports.system_fmu.one_fmu import OneFmu
 from perilune.analysis.runtime.ssp.archive import open_system
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.fmus_src.export.compilers import local_platform

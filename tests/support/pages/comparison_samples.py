@@ -8,8 +8,8 @@ import numpy as np
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import TomlTable
-from perilune.analysis.campaigns.execute.results import CampaignResult
-from perilune.analysis.campaigns.folder.files import with_draws, write_draws
+from perilune.analysis.campaigns.execute.campaign_result import CampaignResult
+from perilune.analysis.campaigns.folder.shard_files import with_draws, write_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.system.options import SystemOptions
 

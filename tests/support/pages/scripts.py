@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from perilune.analysis.documents.interactive.bundles import read_bundle
+from perilune.analysis.documents.interactive.script_bundles import read_bundle
 
 NO_SCRIPTS = "no bundles of scripts"  # tests/conftest.py tells at the end what was left out for it
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from perilune.analysis.documents.figures.scene.declared import Arrow, Jets, Line, Panel, Site, Thrust, ThrustAxis
+from perilune.analysis.documents.figures.scene.scene_elements import Arrow, Jets, Line, Panel, Site, Thrust, ThrustAxis
 from tests.support.scenes.made import body, cartesian, flown, scalar, scene, sphere, vector
 
 

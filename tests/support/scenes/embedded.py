@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from lxml import html
 
-from perilune.analysis.documents.interactive.bundles import read_bundle
 from perilune.analysis.documents.interactive.embedded import Embedded
+from perilune.analysis.documents.interactive.script_bundles import read_bundle
 
 
 def require_bundle(name):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from perilune.analysis.documents.figures.scene.declared import Body, Cartesian, SceneFigure, Surface
+from perilune.analysis.documents.figures.scene.scene_elements import Body, Cartesian, SceneFigure, Surface
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import RADIAN, flown, scalar, vector
 

@@ -13,9 +13,9 @@ from tempfile import TemporaryDirectory
 
 from .....common.errors import InputError
 from .....common.paths import PACKAGE
-from ...folder.files import DRAWS, write_draws
-from ...folder.manifest import CONTENTS, CampaignManifest, content_path
-from ..campaign import LoadedCampaign
+from ...folder.campaign_manifest import CONTENTS, CampaignManifest, content_path
+from ...folder.shard_files import DRAWS, write_draws
+from ..loaded_campaign import LoadedCampaign
 from ..plan_manifest import make_manifest
 from ..workers import in_threads
 

@@ -12,8 +12,8 @@ from typing import Any
 from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import TrialTable
-from ..campaign import LoadedCampaign
-from ..flights import ShardAssembler
+from ..loaded_campaign import LoadedCampaign
+from ..shard_flights import ShardAssembler
 from . import work
 from .sent import make_sent
 from .tasks import RetryQueue, Task, TaskSplitter, WorkersDiedError

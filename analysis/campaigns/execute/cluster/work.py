@@ -14,8 +14,8 @@ from pathlib import Path
 
 from .....common.atomic import write_atomically
 from ...definition.plan import BatchPlan
-from ...folder.files import DRAWS
-from ...folder.manifest import CONTENTS, store_contents
+from ...folder.campaign_manifest import CONTENTS, store_contents
+from ...folder.shard_files import DRAWS
 from ...trials import TrialTable
 from ..flyer import Flyer
 from ..plan_manifest import restore

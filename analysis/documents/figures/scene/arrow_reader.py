@@ -10,7 +10,7 @@ from .....common.errors import suggestion
 from ...common.colours import HUES
 from ..signal_reader import MissingSignalError, SignalReader
 from .attributes import read_signal
-from .declared import Arrow, Body, ThrustAxis
+from .scene_elements import Arrow, Body, ThrustAxis
 
 ARROW_REQUIRED = ("name", "from", "signal")
 ARROW_OPTIONAL = ("frame", "length", "colour")

@@ -11,7 +11,7 @@ from lxml import etree
 from ....runtime.ssp.conversions import BASE_UNITS, Unit
 from ..declared import Signal
 from ..signal_reader import MissingSignalError, SignalReader
-from .declared import Vector
+from .scene_elements import Vector
 
 RADIAN = Unit("rad", tuple(int(name == "rad") for name in BASE_UNITS))
 Value = TypeVar("Value")

@@ -9,7 +9,7 @@ from ....runtime.ssp.types import WHOLE
 from ..history_readers import METRE, SECOND
 from ..signal_reader import SignalReader
 from .attributes import RADIAN, read_available, read_direction, read_signal, read_vector
-from .declared import (
+from .scene_elements import (
     SHAPES,
     Angles,
     Attitude,

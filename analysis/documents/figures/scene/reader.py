@@ -15,7 +15,7 @@ from ..signal_reader import NUMBERS, MissingSignalError, SignalReader
 from .arrow_reader import read_arrow
 from .attributes import check_length, read_available, read_signal, read_vector
 from .body_reader import read_body
-from .declared import GROUND, AxisLetter, AxisNames, Geographic, Line, SceneFigure, Site, Surface
+from .scene_elements import GROUND, AxisLetter, AxisNames, Geographic, Line, SceneFigure, Site, Surface
 
 SCENE = ("frame", "axes", "up", "title")
 SPHERE = ("radius", "centre", "name")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ...cell import Code
 from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Section
+from ..campaign.campaign_origin import fmu_rows, parameter_table
 from ..campaign.metrics import group_nodes, metric_nodes
-from ..campaign.origin import fmu_rows, parameter_table
 from ..campaign.replays import replay_table
 from ..campaign.statuses import component_statuses, component_table, status_table
 from ..campaign.variants import group_rows, variant_rows
@@ -18,7 +18,7 @@ from .content import BatchContent
 from .correlations import driver_sections, failure_section
 from .distribution_sections import distribution_section, other_distribution_sections
 from .header import header_nodes
-from .notebook import notebook_nodes
+from .notebook_nodes import notebook_nodes
 from .printed import printed_lines
 from .recorded_section import recorded_sections
 from .replays import extremes_to_replay

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ....campaigns.columns import describe_metric
 from ....campaigns.definition.campaign import Campaign, Metric
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....campaigns.metric_limits import worst_trial
+from ....campaigns.trial_columns import describe_metric
 from ...common.colours import Look, look
 from ..campaign.distributions import sort_metrics
 from ..campaign.replays import Replay

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.draws.interfaces import input_names
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....studies.sobol import rank_correlations
 from ...cell import Cell, Quantity
 from ...common.quantities import number

@@ -10,13 +10,13 @@ from typing import TypedDict
 import numpy as np
 
 from .....common.errors import InputError
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....campaigns.folder.provenance import CampaignProvenance
 from ...common.colours import COLOURS
 from ...common.quantities import display_factor, display_unit
 from ...common.signals import vector_of
-from ...figures.reading import read_figures
-from ...figures.scene.declared import SceneFigure
+from ...figures.figure_reader import read_figures
+from ...figures.scene.scene_elements import SceneFigure
 from ...scene.flights import FlightsView, RecordedFlight, flights_view
 from ...scene.poses import signals_of
 from ..campaign.recorded_names import axis_of, is_real, names_of_record, unit_of

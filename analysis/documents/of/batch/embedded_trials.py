@@ -8,8 +8,8 @@ from typing import TypedDict
 
 import numpy as np
 
-from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.draws.interfaces import input_names
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....commands.campaigns import replay_command, replay_of_folder
 from ...common.quantities import display_factor, display_unit, number
 from ...interactive.columns import Coarse

@@ -12,9 +12,9 @@ import numpy as np
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
 from ....campaigns.definition.plan import BatchPlan
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....campaigns.execute.evaluation import worst_statuses
 from ....campaigns.execute.flyer import TrialResult
-from ....campaigns.execute.results import CampaignResult
 from ....campaigns.lost_trials import describe_lost_trials
 from ....campaigns.metric_limits import worst_trial
 from ....campaigns.plain_text import align_columns, short

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....runtime.flight.results import Flight
 from ...common.colours import look
 from ...scene.flights import RecordedFlight

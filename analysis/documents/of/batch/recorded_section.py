@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ...model import ForScript, Node, Note, Section
 from ...pictures import Scene
 from .embedded_flights import embedded_flights

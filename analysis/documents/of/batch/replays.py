@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....campaigns.trials import TrialTable
 from ....commands.campaigns import replay_command, replay_of_folder
 from ...cell import Cell

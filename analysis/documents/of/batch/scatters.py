@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from ....campaigns.definition.campaign import Metric, Scatter
-from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.draws.interfaces import input_names
+from ....campaigns.execute.campaign_result import CampaignResult
 from ...cell import Inline, LegendEntry, Quantity, Rich
 from ...chart.axes import linear_axis
 from ...chart.equal import Ends, to_scale

@@ -11,7 +11,7 @@ from scipy.special import ndtr
 
 from .....common.percent import percent
 from ....campaigns.definition.campaign import Metric
-from ....campaigns.execute.results import CampaignResult
+from ....campaigns.execute.campaign_result import CampaignResult
 from ....campaigns.verdicts.order_statistics import quantiles
 from ...chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ...chart.lines import line

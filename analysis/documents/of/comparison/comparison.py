@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from .....common.percent import short_percent
-from ....campaigns.compare.comparison import CampaignComparison, name_of, rate_text
+from ....campaigns.compare.campaign_comparison import CampaignComparison, name_of, rate_text
 from ....campaigns.summary import summary_rows
 from ....campaigns.tables import group_cells, group_headings
 from ...cell import Cell, Code
@@ -17,7 +17,6 @@ from ..campaign.replays import replay_table
 from ..campaign.statuses import status_table
 from ..campaign.verdicts import unjudged_node
 from .content import ComparisonContent
-from .distributions import metric_figures, overlaid_figures
 from .flights.sections import end_section, ends_by_variant_section, error_section, time_sections, trajectory_section
 from .header import header_nodes
 from .metric_sections import (
@@ -29,6 +28,7 @@ from .metric_sections import (
     rate_section,
 )
 from .provenance import parameter_section, provenance_section
+from .variant_distributions import metric_figures, overlaid_figures
 
 
 def comparison_document(comparison: CampaignComparison, command: str, printed: Sequence[str] = ()) -> Document:

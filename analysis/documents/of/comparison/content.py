@@ -8,19 +8,19 @@ from functools import cached_property
 
 import numpy as np
 
-from ....campaigns.compare.comparison import CampaignComparison
+from ....campaigns.compare.campaign_comparison import CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.metric_limits import MetricLimits, worst_row
 from ...common.colours import Look
 from ..campaign.replays import Replay
 from ..campaign.verdict_table import VerdictTable, verdict_table
-from .distributions import looks_of, metric_distributions, sort_metrics
 from .flights.ends import UNITS, Ends, ends_of
 from .flights.histories import FlightHistories
 from .flights.missing import missing_statements
 from .pairs import PairGroup, metric_pairs, rate_pairs
-from .replays import trials_to_replay
+from .variant_distributions import looks_of, metric_distributions, sort_metrics
+from .variant_replays import trials_to_replay
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from ...model import Commands, Fold, Items, KeyNumbers, Missing, Node, Note, Rep
 from ..campaign.replays import anchors_of
 from ..campaign.verdicts import unjudged_node, verdict_nodes
 from .content import ComparisonContent
-from .differences import Sentence, significant_differences
+from .variant_differences import Sentence, significant_differences
 
 
 def header_nodes(content: ComparisonContent, command: str) -> list[Node]:

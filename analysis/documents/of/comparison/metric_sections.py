@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from ....campaigns.compare.comparison import CampaignComparison, name_of
+from ....campaigns.compare.campaign_comparison import CampaignComparison, name_of
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import SummaryRow
 from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
@@ -18,9 +18,9 @@ from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
 from ..campaign.verdict_table import axis_start
 from .content import ComparisonContent
-from .distributions import metric_figures, overlaid_figures
 from .flights.sections import missing_nodes
 from .pairs import metric_pair_table, metric_pairs, rate_pair_table
+from .variant_distributions import metric_figures, overlaid_figures
 
 
 def distribution_section(content: ComparisonContent) -> Section:

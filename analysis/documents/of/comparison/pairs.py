@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
-from ....campaigns.compare.comparison import CampaignComparison, name_of
+from ....campaigns.compare.campaign_comparison import CampaignComparison, name_of
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ...cell import (

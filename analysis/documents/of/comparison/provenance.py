@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ....campaigns.compare.comparison import CampaignComparison
+from ....campaigns.compare.campaign_comparison import CampaignComparison
 from ...cell import Cell, Code, Inline, Quantity
 from ...model import Group, Missing, Node, Note, Section, Table
-from ..campaign.origin import fmu_rows
+from ..campaign.campaign_origin import fmu_rows
 from ..origin import digest_table
 from .header import parameter_sets
 

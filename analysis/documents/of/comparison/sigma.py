@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from ....campaigns.compare.comparison import CampaignComparison
+from ....campaigns.compare.campaign_comparison import CampaignComparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import Interval as Ends
 from ....campaigns.summary import success_interval

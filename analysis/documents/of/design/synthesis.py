@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....design.synthesis.outcome import SynthesisOutcome
+from ....design.synthesis.synthesis_outcome import SynthesisOutcome
 from ...cell import Cell, Phrase, Quantity
 from ...model import Document, KeyNumbers, Section, Table, Text, Verdict
 from .law import formula_nodes

@@ -29,7 +29,7 @@ from ...common.signals import (
 from ...interactive.charts import NO_BOX, Chart, ChartNote
 from ...model import Group, Items, Node, Note
 from ...pictures import Figure, Figures
-from .figures.words import join
+from .figures.figure_texts import join
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing

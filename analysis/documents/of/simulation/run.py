@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ....runtime.flight.results import FlightResult
 from ...cell import Code, Quantity
 from ...figures.declared import FigureDeclaration
-from ...figures.scene.declared import SceneFigure
+from ...figures.scene.scene_elements import SceneFigure
 from ...model import (
     Document,
     Group,
@@ -37,7 +37,7 @@ from .figures.limits import LimitVerdict, limit_document
 from .final_values import final_values, signal_table
 from .histories import time_histories
 from .nodes import trajectory_nodes
-from .summary import notebook_nodes
+from .notebook_summary import notebook_nodes
 
 if TYPE_CHECKING:  # the layout of diagrams starts a JavaScript engine
     from ...diagram.diagram import BlockDiagram

@@ -15,7 +15,7 @@ from .margins import loop_table
 from .paper import Paper, paper_of
 from .parts import Part, list_absent, parts
 from .shared import TOLERANCE, SharedFigures, share_figures
-from .words import anchor, fold_long, left_out, link, numeral, verdict
+from .study_cells import anchor, fold_long, left_out, link, numeral, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the first figures
 HOW_TO_READ = (

@@ -11,8 +11,7 @@ from ...cell import Cell, Lines, Phrase, Strong
 from ...model import Table
 from ..reserve import TIGHTEST
 from .orders import order_loops, order_note
-from .tightest import is_tightest, tightest, with_mark
-from .words import (
+from .study_cells import (
     NO_CROSSING,
     crossing_text,
     gain_margin,
@@ -31,6 +30,7 @@ from .words import (
     text_of_closed_loop,
     verdict,
 )
+from .tightest import is_tightest, tightest, with_mark
 
 SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "simultaneous"}
 

@@ -26,7 +26,7 @@ from ...model import Node, Note
 from ...pictures import Figure, Figures
 from .charts.frequency import FORBIDDEN, WHITE
 from .shared import combine_loop_names
-from .words import numeral
+from .study_cells import numeral
 
 QUANTITIES = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS)
 SAME = 1e-3  # relative difference up to which margins share a line

@@ -15,7 +15,7 @@ from ...cell import Cell, Head, Rich
 from ...common.quantities import MINUS, NONE, display_unit, label_with_unit
 from ...model import Table
 from ...pictures import Figure
-from .words import (
+from .study_cells import (
     NO_CROSSING,
     UNSTABLE_WORD,
     complex_number,

@@ -10,7 +10,7 @@ from ....stability.results.report import PointReport
 from ...cell import Cell, Inline, Phrase
 from ...common.quantities import display_unit
 from ...model import Fold, Missing, Node, Note, Table
-from .words import fold_long, names, numbers, numeral, per_cent, sentences
+from .study_cells import fold_long, names, numbers, numeral, per_cent, sentences
 
 FROZEN_TIME = f"{FROZEN}time_to_go"  # parameter (s) of guidance laws
 

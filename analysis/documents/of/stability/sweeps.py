@@ -9,7 +9,7 @@ from ...common.quantities import label_with_unit
 from ...model import Fold, Group, Node, Note, Table
 from ...pictures import Figures
 from .figures import sweep_figure
-from .words import UNSTABLE_WORD, gain_margin, numbers, numeral, phase_margin, size
+from .study_cells import UNSTABLE_WORD, gain_margin, numbers, numeral, phase_margin, size
 
 
 def sweep_nodes(report: StabilityStudy) -> list[Node]:

@@ -13,7 +13,7 @@ from ...cell import Cell, Code, Inline, Percentage, Phrase, Strong
 from ...common.quantities import display_unit
 from ...model import Text
 from ..reserve import TIGHTEST, relative_reserve
-from .words import crossing_text, limit, link, size
+from .study_cells import crossing_text, limit, link, size
 
 
 def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:

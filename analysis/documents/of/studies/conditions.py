@@ -9,7 +9,7 @@ from ....studies.flown import StudyResult
 from ....studies.noise import Noise
 from ...cell import Cell, Code, Quantity, Rich
 from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
-from ..campaign.origin import fmu_rows, parameter_table
+from ..campaign.campaign_origin import fmu_rows, parameter_table
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [

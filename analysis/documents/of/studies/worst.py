@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ....campaigns.definition.campaign import TrialRecord
 from ....campaigns.definition.plan import BatchPlan
-from ....campaigns.draws.declared import input_names
+from ....campaigns.draws.interfaces import input_names
 from ....campaigns.draws.supplied import SuppliedDraws, part_streams, stream_component
 from ....campaigns.execute.flyer import Flyer
 from ....runtime.flight.results import FlightResult
@@ -18,7 +18,7 @@ from ....studies.worst.outcome import WorstOutcome
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
 from ...figures.declared import FigureDeclaration
-from ...figures.reading import read_figures
+from ...figures.figure_reader import read_figures
 from ...model import Document, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ...pictures import Figures
 from ..simulation.nodes import simulation_nodes

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...instances.library import FUNCTION_NAMES
+from ...instances.fmu_library import FUNCTION_NAMES
 from ...loop import codes
 from .in_memory import SlotRun, runs_in_memory, with_moves
-from .rows import Callee, InstructionRows, Stretch
+from .instruction_rows import Callee, InstructionRows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...instances.library import FUNCTION_NAMES
+from ...instances.fmu_library import FUNCTION_NAMES
 from ...loop import codes
-from .rows import InstructionRows
+from .instruction_rows import InstructionRows
 from .transfers import ComponentTransfers, TransferTable
 
 

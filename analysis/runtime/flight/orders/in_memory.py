@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...loop import codes
-from .rows import Callee
+from .instruction_rows import Callee
 
 REAL_SIZE = 8  # bytes
 

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ...fmi.variable import ScalarVariable
-from ...instances.library import FUNCTION_NAMES
+from ...instances.fmu_library import FUNCTION_NAMES
 from ...system.network import Network
 from ..parameters import TYPE_KIND
 from .exchanged import Exchanged
-from .rows import Stretch
+from .instruction_rows import Stretch
 from .slots import Slots
 
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...fmi.representations import REPRESENTATIONS
 from ...fmi.variable import ScalarVariable
-from ...instances.library import FUNCTION_NAMES
+from ...instances.fmu_library import FUNCTION_NAMES
 from ...loop import codes
 from ...system.network import Network
 

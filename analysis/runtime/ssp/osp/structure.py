@@ -14,7 +14,9 @@ from .....common.errors import InputError
 from .....common.paths import names_fmu
 from ..archive import SystemArchive
 from ..conversions import IDENTITY, Transformation
-from ..description import (
+from ..documents import NAMESPACES, parse_xml, tag
+from ..experiment import positive_seconds, step_hint
+from ..system_description import (
     Binding,
     Component,
     Connection,
@@ -24,8 +26,6 @@ from ..description import (
     is_elsewhere,
     source_file,
 )
-from ..documents import NAMESPACES, parse_xml, tag
-from ..experiment import positive_seconds, step_hint
 from .functions import OUT, FunctionError, Point, TransformedSum, read_function
 from .groups import read_groups
 

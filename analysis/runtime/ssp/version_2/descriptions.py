@@ -12,8 +12,8 @@ from ..dimensions import Shape
 from ..documents import NAMESPACES, child, children, tag
 from .connections import merge_connections
 from .connectors import merge_connectors
+from .element_values import merge_values
 from .trees import remove, to_version_2
-from .values import merge_values
 
 ArraysOf = Callable[[str], Mapping[str, Shape]]  # returns the arrays of the FMU of a source
 EnumerationsOf = Callable[[str], Collection[str]]

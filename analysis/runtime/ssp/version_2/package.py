@@ -16,9 +16,9 @@ from ..dimensions import Shape
 from ..documents import parse_xml
 from ..fmu_description import DESCRIPTION
 from .descriptions import convert_description
+from .element_values import merge_values
 from .fmu_arrays import arrays_of_fmu, enumerations_of_fmu
 from .trees import to_version_2
-from .values import merge_values
 
 OTHERS = (".ssm", ".ssb")
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from .....common.errors import InputError
-from ...ssp.description import Connection, Connector, Element, Point, SystemDescription, SystemElement
 from ...ssp.dimensions import Shape, element_name, element_names, indices, text_of
+from ...ssp.system_description import Connection, Connector, Element, Point, SystemDescription, SystemElement
 from .shapes import Shapes
 from .sizes import Sizes, walk
 

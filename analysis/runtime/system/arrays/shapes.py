@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from .....common.bounds import ARRAY_ELEMENTS
 from .....common.errors import InputError
-from ...ssp.description import Component, Connection, Connector, Element, Point, SystemDescription, SystemElement
 from ...ssp.dimensions import Shape, array_shapes, text_of
+from ...ssp.system_description import Component, Connection, Connector, Element, Point, SystemDescription, SystemElement
 from .sizes import Sizes, walk
 
 Open = tuple[int | None, ...]  # a shape with sizes that may be unknown

@@ -6,10 +6,10 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from .....common.errors import InputError
 from ...ssp.archive import SystemArchive
-from ...ssp.description import Component, Element, SystemDescription, SystemElement
 from ...ssp.dimensions import Dimension
 from ...ssp.parameter_sets import Assignment, read_binding
 from ...ssp.parameter_values import ParameterValue
+from ...ssp.system_description import Component, Element, SystemDescription, SystemElement
 from ..fmu import Fmu
 
 SIZES = ("structuralParameter", "constant")  # kinds of connectors that determine a size

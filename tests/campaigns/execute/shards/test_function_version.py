@@ -9,7 +9,7 @@ import json
 
 import pytest
 
-from perilune.analysis.campaigns.execute import campaign
+from perilune.analysis.campaigns.execute import loaded_campaign
 from perilune.analysis.campaigns.execute import plan_manifest as gather
 from perilune.analysis.cli import main
 from perilune.fmus_src.kernel.functions import VERSION
@@ -56,7 +56,7 @@ def test_a_campaign_is_not_resumed_with_other_functions(folder, version, capsys,
 
 def test_a_complete_folder_of_an_older_version_is_read(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(gather, "VERSION", None)  # as before there was one
-    monkeypatch.setattr(campaign, "VERSION", None)
+    monkeypatch.setattr(loaded_campaign, "VERSION", None)
     out = tmp_path / "out"
     assert main(["batch", *CAMPAIGN, "--output", str(out)]) in (0, 1)
     monkeypatch.undo()

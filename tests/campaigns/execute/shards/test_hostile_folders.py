@@ -15,7 +15,7 @@ import pyarrow.parquet
 import pytest
 from hypothesis import settings
 
-from perilune.analysis.campaigns.folder.manifest import FILE
+from perilune.analysis.campaigns.folder.campaign_manifest import FILE
 from tests.fuzz.folders import any_manifest, any_shard, make_folder, merge
 from tests.support.lengths import either
 

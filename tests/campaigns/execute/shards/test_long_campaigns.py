@@ -18,7 +18,7 @@ from perilune.analysis.campaigns import plotted_sample, statistics, summary
 from perilune.analysis.campaigns.definition.campaign import TrialGroup
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
-from perilune.analysis.campaigns.execute.campaign import open_folder
+from perilune.analysis.campaigns.execute.loaded_campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.plotted_sample import FIRST, select_trials
 from perilune.analysis.campaigns.summary import summarise

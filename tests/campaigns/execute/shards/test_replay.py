@@ -16,7 +16,7 @@ import pytest
 from lxml import html
 
 import perilune
-from perilune.analysis.campaigns.folder.files import shard_path
+from perilune.analysis.campaigns.folder.shard_files import shard_path
 from perilune.analysis.cli import main
 from perilune.analysis.documents.of.batch.content import BatchContent
 from perilune.analysis.documents.of.batch.replays import extremes_to_replay

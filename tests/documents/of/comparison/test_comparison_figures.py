@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path
 
-from perilune.analysis.campaigns.compare.comparison import Contender
+from perilune.analysis.campaigns.compare.campaign_comparison import Contender
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.trials import TrialTable

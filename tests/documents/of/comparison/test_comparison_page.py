@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
-from perilune.analysis.documents.of.comparison.distributions import looks_of
+from perilune.analysis.documents.of.comparison.variant_distributions import looks_of
 from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.comparison_samples import DIGEST, write_sample

@@ -5,7 +5,7 @@ Truth: hand-written batches with incomplete records.
 
 import pytest
 
-from perilune.analysis.campaigns.folder.files import write_draws
+from perilune.analysis.campaigns.folder.shard_files import write_draws
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.pages.comparison_samples import CAMPAIGN, write_sample
 from tests.support.pages.written import write_comparison_page

@@ -17,12 +17,12 @@ from lxml import etree
 from perilune.analysis.runtime.ssp.dimensions import array_shapes, element_names
 from perilune.analysis.runtime.ssp.documents import NAMESPACES, check_schema, children
 from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_set
-from perilune.analysis.runtime.ssp.reading import read_ssd
+from perilune.analysis.runtime.ssp.ssd_reader import read_ssd
 from perilune.analysis.runtime.ssp.version_2.descriptions import convert_description
+from perilune.analysis.runtime.ssp.version_2.element_values import merge_values
 from perilune.analysis.runtime.ssp.version_2.fmu_arrays import arrays_of_fmu
 from perilune.analysis.runtime.ssp.version_2.package import convert_package
 from perilune.analysis.runtime.ssp.version_2.trees import to_version_2
-from perilune.analysis.runtime.ssp.version_2.values import merge_values
 from perilune.analysis.runtime.system.arrays.elements import expand_arrays
 from perilune.analysis.runtime.system.arrays.sizes import Sizes, walk
 from perilune.fmus_src.export.archive import read_zip

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from perilune.analysis.runtime.ssp.dimensions import Dimension
-from perilune.analysis.runtime.ssp.reading import read_ssd
+from perilune.analysis.runtime.ssp.ssd_reader import read_ssd
 from perilune.analysis.runtime.system.arrays.sizes import Sizes
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....campaigns.compare.comparison import Contender
+from .....campaigns.compare.campaign_comparison import Contender
 from .....campaigns.verdicts.order_statistics import quantiles
 from ....cell import Cell, Head, Quantity
 from ....common.colours import Look

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .....campaigns.compare.comparison import CampaignComparison
+from .....campaigns.compare.campaign_comparison import CampaignComparison
 from ...campaign.recorded_names import names_of_record
 from .bands import Bands, bands_of
 from .recorded import ComparedFlight, FlightQuantity, quantities, read_flights, trials_with_traces

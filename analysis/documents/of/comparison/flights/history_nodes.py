@@ -9,7 +9,7 @@ from ....cell import Quantity
 from ....common.colours import Look
 from ....model import Group, Node, Note
 from ....pictures import Figure, Figures
-from ..distributions import overlaid_figures
+from ..variant_distributions import overlaid_figures
 from .band_figures import band_figures, overlaid_bands
 from .histories import History
 

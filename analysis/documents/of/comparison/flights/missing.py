@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from .....campaigns.compare.comparison import CampaignComparison
+from .....campaigns.compare.campaign_comparison import CampaignComparison
 from ...campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_of
-from ..distributions import MASS
 from ..sigma import is_over_sigma
+from ..variant_distributions import MASS
 from .ends import UNITS
 from .recorded import ComparedFlight
 

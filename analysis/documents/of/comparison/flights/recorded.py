@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....campaigns.compare.comparison import Contender
+from .....campaigns.compare.campaign_comparison import Contender
 from .....campaigns.folder.provenance import CampaignProvenance
 from ...campaign.recorded_names import (
     COMMANDS,

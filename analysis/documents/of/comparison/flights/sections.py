@@ -10,8 +10,8 @@ from ....model import Group, Missing, Node, Note, Section, Text
 from ....pictures import Figure, Figures
 from ...campaign.recorded_names import LETTERS
 from ..content import ComparisonContent
-from ..distributions import all_values, metric_figures, overlaid_figures, sort_metrics
 from ..sigma import is_over_sigma, sigma_rows, sigma_table
+from ..variant_distributions import all_values, metric_figures, overlaid_figures, sort_metrics
 from .end_figures import BULK, UNEVEN, dispersion_figures, overlaid_ends
 from .ends import dispersion_table
 from .history_nodes import constant_notes, histories_by_variant, overlaid_histories

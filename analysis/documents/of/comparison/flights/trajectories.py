@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....campaigns.compare.comparison import Contender
+from .....campaigns.compare.campaign_comparison import Contender
 from ....common.round_body import downrange, radius_of
 from ....common.signals import displayed_name
 from ...campaign.recorded_names import (

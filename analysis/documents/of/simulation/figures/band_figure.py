@@ -17,8 +17,8 @@ from ....common.quantities import display_factor, display_unit
 from ....figures.declared import BandFigure, Signal
 from ....interactive.charts import NO_BOX, Chart
 from ....model import Group
+from .figure_texts import join, seconds, sentence, value_range
 from .section import displayed, figure_group, history_figure, legend_of, time_chart
-from .words import join, seconds, sentence, value_range
 
 SETTLED = "settled"  # name of a band that a settling time does not repeat
 ZOOM = 3.0  # range of the zoom over the width of the band

@@ -22,16 +22,16 @@ from ....figures.declared import (
     PulsesFigure,
     UnavailableFigure,
 )
-from ....figures.scene.declared import SceneFigure
+from ....figures.scene.scene_elements import SceneFigure
 from ....model import Group, Table
 from .band_figure import band_section, inside, settling_text
+from .figure_texts import condition_text
 from .history_figures import curve_section, error_section
 from .limits import LimitVerdict, evaluate, limit_rows
 from .path_figure import path_section
 from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
 from .section import figure_group
-from .words import condition_text
 
 
 class FigureGroup(NamedTuple):

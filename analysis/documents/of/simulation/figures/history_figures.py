@@ -19,8 +19,8 @@ from ....figures.declared import CurveFigure, ErrorFigure
 from ....interactive.charts import Chart
 from ....model import Group
 from ....pictures import Figure
+from .figure_texts import capital, condition_text, join, seconds, sentence
 from .section import displayed, figure_group, history_figure, legend_of, select_rows, time_chart
-from .words import capital, condition_text, join, seconds, sentence
 
 SIGMAS = (3.0, 1.0)
 MOST_ROWS = 500  # rows of shaded areas, which matplotlib does not simplify

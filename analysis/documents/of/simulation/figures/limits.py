@@ -13,7 +13,7 @@ from ....common.quantities import NONE, display_unit
 from ....figures.declared import FigureDeclaration, Limit, LimitsFigure, UnavailableFigure
 from ....render.words import cell_text
 from ...reserve import TIGHTEST, relative_reserve
-from .words import value_range
+from .figure_texts import value_range
 
 
 class LimitVerdict(StrEnum):

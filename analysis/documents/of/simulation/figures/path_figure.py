@@ -24,8 +24,8 @@ from ....figures.declared import Arc, PathFigure, Signal
 from ....interactive.charts import NO_BOX, Chart, Curve, Marker
 from ....model import Group
 from ....pictures import Figure
+from .figure_texts import condition_text, sentence
 from .section import figure_group, select_rows
-from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 3.4  # in, with equal scales, half as wide as the page's column

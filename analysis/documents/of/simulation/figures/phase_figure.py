@@ -19,8 +19,8 @@ from ....interactive.charts import NO_BOX, Area, Chart, ChartNote
 from ....interactive.measures import TICK_SIZE
 from ....model import Group, Table
 from ....pictures import Figure
+from .figure_texts import seconds
 from .section import align, figure_group
-from .words import seconds
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from ....figures.declared import PulsesFigure
 from ....interactive.charts import Area, Chart
 from ....model import Group
 from ....pictures import Figure
+from .figure_texts import join, sentence
 from .section import displayed, figure_group, time_chart
-from .words import join, sentence
 
 HEIGHT = 1.6  # in
 BAR = 1.1  # pt, width of a bar, since the duration of a pulse would not be visible

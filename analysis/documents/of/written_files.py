@@ -10,7 +10,7 @@ from ..cell import Code, CommandLine
 from ..model import Document, Listing, Node, Text
 
 if TYPE_CHECKING:  # templates need an engine that other verbs do not
-    from ...authoring.block import CreatedFiles
+    from ...authoring.block_template import CreatedFiles
 
 
 def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms: Iterable[str], fmi: int) -> Document:

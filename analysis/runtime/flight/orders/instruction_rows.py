@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ...instances.library import FUNCTION_NAMES
+from ...instances.fmu_library import FUNCTION_NAMES
 from ...loop import codes
 
 Stretch = tuple[int, int]  # first slot and number of slots

@@ -10,7 +10,9 @@ from pathlib import PurePosixPath
 from ....fmus_src.catalogue import block_kinds
 from ...options.fault import Fault
 from ...runtime.ssp.conversions import IDENTITY, Transformation
-from ...runtime.ssp.description import (
+from ...runtime.ssp.kinds import PARAMETERS
+from ...runtime.ssp.names import split_name
+from ...runtime.ssp.system_description import (
     Component,
     Connection,
     Connector,
@@ -19,8 +21,6 @@ from ...runtime.ssp.description import (
     Point,
     SystemElement,
 )
-from ...runtime.ssp.kinds import PARAMETERS
-from ...runtime.ssp.names import split_name
 from ...runtime.system.flattening import find_direction
 from ...runtime.system.network import Node
 from ...runtime.system.prepared import PreparedSystem

@@ -13,20 +13,20 @@ import pyarrow
 
 from ....common.atomic import write_atomically
 from ....common.to_json import to_json
-from ..columns import Column, describe_column, with_metadata
 from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder
-from ..folder.files import SUMMARY, clear, trial_table, write_draws
 from ..folder.lock import lock_folder
 from ..folder.numbering import Numbering, shard_size
 from ..folder.provenance import CampaignProvenance
+from ..folder.shard_files import SUMMARY, clear, trial_table, write_draws
 from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
+from ..trial_columns import Column, describe_column, with_metadata
 from ..trials import TrialTable
-from .campaign import LoadedCampaign
 from .folder import remove_temporary_files
+from .loaded_campaign import LoadedCampaign
 
 
 @dataclass

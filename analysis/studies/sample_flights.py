@@ -13,11 +13,11 @@ from ...common.progress import progress_bar
 from ..campaigns.definition.campaign import TrialRecord
 from ..campaigns.definition.checks import check_draws, check_plan
 from ..campaigns.definition.plan import BatchPlan
-from ..campaigns.draws.declared import Columns
+from ..campaigns.draws.interfaces import Columns
 from ..campaigns.draws.supplied import ALL, Streams, SuppliedDraws
-from ..campaigns.execute.flights import task_size
 from ..campaigns.execute.flyer import Flyer
 from ..campaigns.execute.metadata import provenance
+from ..campaigns.execute.shard_flights import task_size
 from ..campaigns.execute.workers import FlyerPool, worker_count
 from ..campaigns.folder.provenance import CampaignProvenance
 from ..campaigns.lost_trials import count_lost

@@ -9,7 +9,7 @@ from ...cell import Cell, Digest, Inline, Phrase
 from ...common.quantities import NONE
 from ...model import Fold, Group, Items, KeyNumbers, Missing, Node, Note, Table
 from .margins import SCOPES
-from .words import fold_long, limit, numbers, numeral
+from .study_cells import fold_long, limit, numbers, numeral
 
 TIMES = ("step", "start_time", "stop_time")  # s
 ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # provenance in other tables

@@ -15,13 +15,13 @@ from .figures import SIZE, bode_figure, joint_figure
 from .loops import loop_nodes
 from .margins import joint_table, order_table, summary_table, verdict_table
 from .orders import order_sentences
-from .origin import origin_nodes
 from .over_time import courses, over_time_nodes
 from .points import point_nodes
 from .printed import stability_lines
+from .study_cells import fold_long, gain_margin, phase_margin, size, verdict
+from .study_origin import origin_nodes
 from .sweeps import sweep_nodes
 from .tightest import dispersion_nodes, tightest_nodes, with_mark
-from .words import fold_long, gain_margin, phase_margin, size, verdict
 
 
 def stability_document(report: StabilityStudy, command: str = "") -> Document:

@@ -13,10 +13,10 @@ import pyarrow
 import pyarrow.parquet
 
 from ...common.errors import InputError
-from ..campaigns.columns import Column, describe_column
-from ..campaigns.execute.campaign import read_folder
+from ..campaigns.execute.loaded_campaign import read_folder
 from ..campaigns.folder.campaign_folder import CampaignFolder
-from ..campaigns.folder.files import IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
+from ..campaigns.folder.shard_files import IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
+from ..campaigns.trial_columns import Column, describe_column
 from ..commands.campaigns import replay_of_folder
 
 ROW_LIMIT = 20_000_000  # rows of a campaign; a column then takes 40 MB

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....campaigns.compare.comparison import CampaignComparison
-from ....campaigns.folder.manifest import FILE as MANIFEST
+from ....campaigns.compare.campaign_comparison import CampaignComparison
+from ....campaigns.folder.campaign_manifest import FILE as MANIFEST
 from ....commands.campaigns import replay_of_folder
 from ...cell import Cell
 from ..campaign.replays import FAILURES, Replay, with_anchors, worst_reasons

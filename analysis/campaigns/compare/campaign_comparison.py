@@ -11,7 +11,6 @@ import numpy as np
 
 from ....common.percent import percent
 from ....common.to_json import to_json
-from ..columns import describe_metrics
 from ..definition.campaign import Metric, TrialGroup
 from ..definition.expressions import Expression
 from ..folder.stored import StoredBatch
@@ -19,6 +18,7 @@ from ..plain_text import faults_line
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..summary_text import metric_lines, rate_lines, select_metrics
 from ..tables import group_cells, group_headings
+from ..trial_columns import describe_metrics
 from ..trials import TrialTable
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 

@@ -33,7 +33,7 @@ from ..runtime.ssp.names import split_name
 from ..runtime.system.fmu import Fmu
 from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from .studies import ALL, known_studies, make_report
+from .study_evidence import ALL, known_studies, make_report
 
 ROWS = 200  # most rows of a trajectory: a simulation that differs anywhere differs at its end
 TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"

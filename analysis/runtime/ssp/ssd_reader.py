@@ -11,7 +11,11 @@ from ....common.paths import names_fmu
 from .annotations import check_annotations, feedthrough_of_component
 from .archive import OSP_SUFFIX, SystemArchive
 from .conversions import Unit, read_transformation, units_of_document
-from .description import (
+from .dimensions import read_dimensions
+from .documents import check_schema, child, children, read_document, signatures, tag
+from .experiment import StepSettings, pace_of_experiment, pace_of_system, step_of_component
+from .osp.structure import read_osp
+from .system_description import (
     Binding,
     Component,
     Connection,
@@ -22,10 +26,6 @@ from .description import (
     is_elsewhere,
     source_file,
 )
-from .dimensions import read_dimensions
-from .documents import check_schema, child, children, read_document, signatures, tag
-from .experiment import StepSettings, pace_of_experiment, pace_of_system, step_of_component
-from .osp.structure import read_osp
 from .types import RUNTIME_TYPES, runtime_type
 
 Load = Callable[[str, str], bytes]  # returns the content of a file, from its name and the element that refers to it

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from ....campaigns.compare.comparison import SUCCESS, CampaignComparison
+from ....campaigns.compare.campaign_comparison import SUCCESS, CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
 from ...cell import DisplayedNumber, Inline
 from ...common.quantities import display_unit, in_display_unit, number

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ..campaigns.definition.expressions import Expression
 from ..runtime.system.prepared import PreparedSystem
 from .draw_space import DrawSpace
-from .flights import StudyProvenance
+from .sample_flights import StudyProvenance
 
 SUMS = (ast.Add, ast.Sub)
 

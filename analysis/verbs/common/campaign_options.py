@@ -14,16 +14,16 @@ import numpy as np
 
 from ....common.errors import EndedError, ExitStatus, InputError
 from ....common.machine.os_errors import line_of
-from ...campaigns.columns import describe_metrics
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...campaigns.definition.sweeps import split_sweeps
 from ...campaigns.draws.supplied import ALL, SuppliedDraws
-from ...campaigns.execute.campaign import LoadedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
-from ...campaigns.folder.manifest import FILE as MANIFEST
+from ...campaigns.execute.loaded_campaign import LoadedCampaign
+from ...campaigns.folder.campaign_manifest import FILE as MANIFEST
 from ...campaigns.summary import requirement_values, summarise
+from ...campaigns.trial_columns import describe_metrics
 from ...campaigns.trials import TrialTable
 from ...commands.campaigns import campaign_command, replay_command
 from ...options.fault import faults_of

@@ -11,20 +11,20 @@ import numpy as np
 
 from ....common.errors import InputError
 from ...campaigns.definition.plan import BatchPlan
-from ...campaigns.draws.declared import Columns, input_names
 from ...campaigns.draws.generators import standard_normals
+from ...campaigns.draws.interfaces import Columns, input_names
 from ...campaigns.draws.supplied import Streams
 from ...runtime.system.prepared import PreparedSystem
 from ..draw_space import DrawSpace
-from ..flights import SampleFlights, StudyProvenance
 from ..flown import Flown
 from ..noise import Noise
-from ..units import units_of
+from ..sample_flights import SampleFlights, StudyProvenance
+from ..study_units import units_of
+from .margin_request import MarginRequest
 from .margin_studies import MarginStudies
 from .objective import SIZES, Objective, margin_objective, metric_objective
 from .outcome import WorstOutcome
 from .realisations import REALISATIONS, FreshNoise, Realisations, read_realisations
-from .request import MarginRequest
 from .search import LEAST, SearchPhase, largest
 
 FLIGHTS = 2000

@@ -11,7 +11,7 @@ from threading import Lock
 
 import numpy as np
 
-from .campaign import OpenCampaign
+from .opened_campaign import OpenCampaign
 from .scale import ColumnScale, make_scale
 
 MEMORY = 300_000_000  # bytes of binned columns

@@ -17,7 +17,7 @@ from ....common.bounds import INPUT_BYTES, TRIALS
 from ....common.errors import InputError
 from ....common.regular import read_regular
 from ...runtime.instances.renewal import Renewal
-from .files import check_folders
+from .shard_files import check_folders
 
 FILE = "manifest.json"
 CONTENTS = "files"  # folder of the contents, next to the manifest

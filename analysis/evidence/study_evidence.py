@@ -14,14 +14,14 @@ from ...common.errors import InputError
 from ...common.visible import limit_lines
 from ...fmus_src.evidence.manifest import STABILITY
 from ..campaigns.definition.plan import read_plan
-from ..campaigns.execute.campaign import open_campaign
-from ..campaigns.execute.results import CampaignResult
+from ..campaigns.execute.campaign_result import CampaignResult
+from ..campaigns.execute.loaded_campaign import open_campaign
 from ..campaigns.execute.runner import fly_campaign
 from ..commands.stability import study_command
 from ..runtime.ssp.archive import SystemArchive
-from ..runtime.ssp.reading import read_description
+from ..runtime.ssp.ssd_reader import read_description
 from ..runtime.system.options import SystemOptions, Watch
-from ..stability.request.reading import read_declaration
+from ..stability.request.loop_declaration import read_declaration
 from ..stability.request.request import read_request
 from ..stability.results.document import document
 from ..stability.study import study

@@ -9,7 +9,7 @@ from lxml import etree
 
 from ....common.errors import suggestion
 from ...runtime.ssp.annotations import AnnotationReader
-from ...runtime.ssp.description import SystemDescription
+from ...runtime.ssp.system_description import SystemDescription
 from ...runtime.system.options import Layer
 from ..loops.describing_function import ELEMENTS, complete_parameters
 from .declaration import Declaration, LoopDeclaration, MarginLimits, NonlinearElement, PointDeclaration, Sweep

@@ -17,8 +17,8 @@ from ..compose.source import read_source
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, RUN
 from ..options.declared.studies import STABILITY
-from .block import CreatedFiles, render, template_names
-from .names import check_free, check_name, class_name
+from .block_template import CreatedFiles, render, template_names
+from .name_checks import check_free, check_name, class_name
 
 SYSTEM, BLOCKS = "system", "blocks.py"
 PARTS = ("plant", "control")  # names of the blocks in the system, in order of definition

@@ -9,9 +9,9 @@ from ...common.errors import InputError
 from ..documents.common.colours import COLOURS
 from ..documents.common.page import render_page
 from ..documents.common.quantities import display_factor, display_unit
-from ..documents.interactive.bundles import MISSING, read_bundle
-from .campaign import OpenCampaign
+from ..documents.interactive.script_bundles import MISSING, read_bundle
 from .documents import CampaignEntry, ShowDocument
+from .opened_campaign import OpenCampaign
 from .scale import BARS, BINS
 
 BUNDLE = "show"

@@ -15,10 +15,10 @@ from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..options.command import write_command
 from ..options.declared.campaigns import RUN
 from ..runtime.ssp.archive import open_system, system_names
-from ..runtime.ssp.description import Component
-from ..runtime.ssp.reading import read_description
+from ..runtime.ssp.ssd_reader import read_description
+from ..runtime.ssp.system_description import Component
 from .fits import slots
-from .names import check_free, check_name, class_name
+from .name_checks import check_free, check_name, class_name
 
 SLOTS = "slots"
 

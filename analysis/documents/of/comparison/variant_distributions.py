@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ....campaigns.compare.comparison import CampaignComparison
+from ....campaigns.compare.campaign_comparison import CampaignComparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
 from ...cell import LegendEntry

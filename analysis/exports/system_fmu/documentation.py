@@ -8,9 +8,9 @@ from lxml import etree
 from lxml.html import builder
 
 from ....fmus_src.evidence.page import page_of
+from .fmu_variables import FmuVariable
 from .model import SystemModel
 from .parameter_sets import ConvertedSets
-from .variables import FmuVariable
 
 PAGE = "documentation/index.html"
 README = "sources/README.md"

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..campaigns.definition.campaign_source import read_source
 from ..campaigns.definition.file import parse_campaign
-from ..campaigns.definition.source import read_source
 from ..campaigns.definition.table import TomlTable
 from ..runtime.ssp.archive import open_system
 

@@ -17,12 +17,12 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import check_plan, prepare_variants
 from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder
-from ..folder.files import SUMMARY, check_folders, shard_path
+from ..folder.campaign_manifest import FILE, WRITE, CampaignManifest, read_manifest
 from ..folder.lock import lock_folder
-from ..folder.manifest import FILE, WRITE, CampaignManifest, read_manifest
 from ..folder.numbering import Numbering
 from ..folder.provenance import CampaignProvenance
-from ..folder.summary import read_summary
+from ..folder.shard_files import SUMMARY, check_folders, shard_path
+from ..folder.summary_file import read_summary
 from ..lost_trials import lost_status
 from ..trials import TrialTable
 from .folder import remove_further_trials, resume_folder, write_prepared_campaign

@@ -9,12 +9,12 @@ from pathlib import Path
 from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
 from ....common.regular import read_regular
-from ..columns import describe_metric
 from ..definition.campaign import Metric
 from ..definition.expressions import Expression
-from .files import NEW_FOLDER
-from .manifest import WRITE
+from ..trial_columns import describe_metric
+from .campaign_manifest import WRITE
 from .provenance import CampaignProvenance
+from .shard_files import NEW_FOLDER
 
 
 class SummaryDocument(CampaignProvenance, total=False):
