@@ -102,7 +102,7 @@ class JetAllocation(Block, interface=True):
             for p in range(JETS):
                 self.new_thrust[p] = 0.0
 
-    def put_out(self, time: float) -> None:
+    def output_due_thrusts(self, time: float) -> None:
         """Output the pending thrusts if they are due at ``time`` (s)."""
         if self.waiting and time >= self.due_time - sampling.TIME_ROUNDING:
             self.waiting = False
@@ -115,10 +115,10 @@ class JetAllocation(Block, interface=True):
     def initialize(self) -> None:
         self.strength = jet_strength(self.jet_tilt, self.jet_azimuth, self.jet_arm)
         self.take(self.start_time)
-        self.put_out(self.start_time)
+        self.output_due_thrusts(self.start_time)
 
     def step(self, t: float, h: float) -> None:
-        self.put_out(t + h)  # thrusts due now, before a new command replaces them
+        self.output_due_thrusts(t + h)  # thrusts due now, before a new command replaces them
         if self.command_count != self.counted:
             self.take(t + h)
-            self.put_out(t + h)
+            self.output_due_thrusts(t + h)

@@ -70,7 +70,7 @@ class EntryControl(Block, interface=True):
         """Return measured minus reference bank angle (rad), limited to error_limit."""
         return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
-    def beyond(self, demand: float, level: float) -> float:
+    def apply_dead_zone(self, demand: float, level: float) -> float:
         """Return a torque demand (N m), or 0 if it lies within the dead zone, a fraction of the torque level (N m)."""
         if abs(demand) < self.dead_zone * level:
             return 0.0
@@ -87,9 +87,9 @@ class EntryControl(Block, interface=True):
             return
         self.status = EntryControlStatus.GOOD
         demand = self.regulate()
-        x = self.beyond(demand.x, self.jet_torque.x)
-        y = self.beyond(demand.y, self.jet_torque.y)
-        z = self.beyond(demand.z, self.jet_torque.z)
+        x = self.apply_dead_zone(demand.x, self.jet_torque.x)
+        y = self.apply_dead_zone(demand.y, self.jet_torque.y)
+        z = self.apply_dead_zone(demand.z, self.jet_torque.z)
         self.torque_command = vector(x, y, z)
 
     def initialize(self) -> None:

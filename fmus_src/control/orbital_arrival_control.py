@@ -6,7 +6,7 @@ from ..mathlib.orbits.attitude import angle_rates, evaluate_angles
 from ..mathlib.vectors import vector
 from .orbital_control import OrbitalControl
 
-WORTHWHILE = 0.3  # fraction of the commanded rate; a smaller change does not warrant a pulse
+LEAST_RATE_CHANGE = 0.3  # fraction of the commanded rate; a smaller change does not warrant a pulse
 
 
 class OrbitalArrivalControl(OrbitalControl):
@@ -48,7 +48,7 @@ class OrbitalArrivalControl(OrbitalControl):
             required_rate = led - math.copysign(beyond, error) / left
         change = required_rate - rate
         mobility = self.inverse_inertia[k, k]
-        worth = WORTHWHILE * abs(required_rate)
+        worth = LEAST_RATE_CHANGE * abs(required_rate)
         minimum = mobility * self.jet_torque[k] * self.shortest_pulse
         if worth < minimum:
             worth = minimum

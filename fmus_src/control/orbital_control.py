@@ -96,7 +96,7 @@ class OrbitalControl(OrbitalBody, interface=True):
             self.regulate(time)
 
     def initialize(self) -> None:
-        self.usable = self.weigh()
+        self.usable = self.invert_inertia()
         if self.usable:
             self.begin()
         self.command(0.0)

@@ -69,7 +69,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         s[PITCH, ROLL] = self.coupling
         return s
 
-    def stands_delay(self, e: Matrix) -> bool:
+    def is_stable_with_delay(self, e: Matrix) -> bool:
         """Return True if all three eigenvalues of e have positive real parts (Hurwitz's condition on -e)."""
         trace = e[0, 0] + e[1, 1] + e[2, 2]
         xy = e[0, 0] * e[1, 1] - e[0, 1] * e[1, 0]
@@ -107,7 +107,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         gain = identity(6) - a @ undone
         self.angle_gain = self.inertia @ gain[RATES, ANGLES]
         self.rate_gain = self.inertia @ gain[RATES, RATES]
-        self.usable = invertible and placed and self.stands_delay(identity(3) - gain[RATES, RATES])
+        self.usable = invertible and placed and self.is_stable_with_delay(identity(3) - gain[RATES, RATES])
         if not self.largest(a) * self.largest(back) < SINGULAR:
             self.usable = False
         zero = vector(0.0, 0.0, 0.0)

@@ -44,9 +44,9 @@ class AirDisturbance(Block):
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:
-        self.put_out(0.0)
+        self.set_outputs(0.0)
 
-    def put_out(self, time: float) -> None:
+    def set_outputs(self, time: float) -> None:
         """Set the outputs for ``time`` (s) after the start."""
         since = time - self.gust_time
         fraction = 0.0
@@ -58,4 +58,4 @@ class AirDisturbance(Block):
             self.density_factor = self.later_density
 
     def step(self, t: float, h: float) -> None:
-        self.put_out(t + h - self.start_time)
+        self.set_outputs(t + h - self.start_time)

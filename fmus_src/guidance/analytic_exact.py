@@ -3,10 +3,10 @@
 from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
-from .certain_time import CertainTime
+from .time_to_go_guidance import TimeToGoGuidance
 
 
-class AnalyticExactGuidance(CertainTime):
+class AnalyticExactGuidance(TimeToGoGuidance):
     """Terminal guidance in closed form with the cubic time to go and the exact direction rate.
 
         p = 3 B - A T    q = A T - 2 B    d = p/|p|    d' = (3/T) (q - (q · d) d)/|p|
@@ -19,7 +19,7 @@ class AnalyticExactGuidance(CertainTime):
     Source: Fomichev and Li 2017; cubic term and exact rate: docs/systems/lunar_terminal_guidance.md.
     """
 
-    terminal_step = CertainTime.terminal_step.with_start(1)
+    terminal_step = TimeToGoGuidance.terminal_step.with_start(1)
 
     def solve(self) -> None:
         dr, dv = self.remaining()

@@ -23,7 +23,7 @@ class AstarGuidance(AstarProgramme):
         0.0, unit="s", description="initial value of Newton's method for the time to go; 0: initial value 2 R/V"
     )
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.last_root = 0.0
 
     def root(self, dr: Vector3, v: Vector3, dv: Vector3, start: float) -> float:

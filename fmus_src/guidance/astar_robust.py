@@ -4,12 +4,12 @@ from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
-from .certain_time import CertainTime
+from .time_to_go_guidance import TimeToGoGuidance
 
 FORWARD = 0.05  # least fraction of thrust along x for the arcsines; 0.07 in the published box
 
 
-class AstarRobustGuidance(AstarProgramme, CertainTime):
+class AstarRobustGuidance(AstarProgramme, TimeToGoGuidance):
     """Terminal guidance by method A* with a time to go for every start.
 
         |A| T = 2 |B|    W = |a_0| = 2 |A T - 3 B|/T^2

@@ -60,7 +60,7 @@ class ConvexGuidance(ZemZevGuidance):
     )
     handed_over = State(False, description="true: ZEM/ZEV guidance has replaced the plan")
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.chosen = False
         self.checked_time = 0.0
         self.choices = 0

@@ -39,7 +39,7 @@ class GravityTurnGuidance(InformedGuidance):
         """Return False, since the law has no time to go to hold constant."""
         return False
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.burning = self.burning and self.commanding  # a divert does not switch the engine off
 
     def local_gravity(self) -> tuple[Vector3, float]:

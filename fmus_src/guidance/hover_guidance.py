@@ -151,7 +151,7 @@ class HoverGuidance(HoverPlan):
             self.elapsed = self.cycle
         self.sample_time = time
         if not self.active or self.mode == HoverMode.IDLE:
-            self.rest(time)
+            self.deactivate(time)
         else:
             if self.in_charge:
                 self.weigh_thrust()
@@ -164,7 +164,7 @@ class HoverGuidance(HoverPlan):
             self.follow(time)
         self.command.command_time = time
 
-    def rest(self, time: float) -> None:
+    def deactivate(self, time: float) -> None:
         """Withdraw the command."""
         if self.in_charge:
             self.drop_plan()

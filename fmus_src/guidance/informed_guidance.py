@@ -6,7 +6,7 @@ from ..block import Output, Parameter
 from ..interfaces.ports import landing
 from ..kernel.functions import tan
 from ..mathlib.lunar.gravity import STANDARD_GRAVITY
-from ..mathlib.lunar.terminal import cubic_time, effort_rises, steady, weighted_effort_time
+from ..mathlib.lunar.terminal import cubic_time, effort_rises, keeps_direction, weighted_effort_time
 from ..mathlib.vectors import Vector3
 from ..units import deg
 from .terminal_guidance import TerminalGuidance
@@ -96,7 +96,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
             time = root
             if change < AGREED:
                 dr, dv = self.remaining_over(time)
-                brakes = steady(dr, self.velocity, dv, self.gravity, time)
+                brakes = keeps_direction(dr, self.velocity, dv, self.gravity, time)
                 if brakes and not effort_rises(dr, self.velocity, dv, self.gravity, time):
                     return time
                 return 0.0

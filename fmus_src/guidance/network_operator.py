@@ -86,10 +86,10 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
             if self.command.thrust_acceleration > 0.0:
                 self.time_to_go = -expm1(-excess / exhaust_speed) * exhaust_speed / self.command.thrust_acceleration
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.forward = vector(1.0, 0.0, 0.0)
 
-    def go_on(self, t: float, h: float) -> None:
+    def process_sample(self, t: float, h: float) -> None:
         if not self.finished:
             if self.divert_count != self.flown_divert:
                 self.divert()

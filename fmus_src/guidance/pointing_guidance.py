@@ -100,7 +100,7 @@ class PointingGuidance(Block):
         self.last_time = self.start_time
         self.point(self.start_time)
 
-    def carry(self, h: float) -> None:
+    def propagate(self, h: float) -> None:
         """Propagate the orbit by h (s) under point-mass gravity."""
         r = self.position
         g = -(self.gravitational_parameter / (dot(r, r) * norm(r))) * r
@@ -164,9 +164,9 @@ class PointingGuidance(Block):
             self.position = self.estimated_position
             self.velocity = self.estimated_velocity
             self.sampled_at = self.sample_time
-            self.carry(t - self.sampled_at)
+            self.propagate(t - self.sampled_at)
         elif norm(self.position) > 0.0:
-            self.carry(t - self.last_time)
+            self.propagate(t - self.last_time)
         self.last_time = t
         if not (finite and norm(self.position) > 0.0):
             return

@@ -72,7 +72,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     def take_gain(self) -> None:
         """Set flown_kr if the gain is a parameter; no action unless overridden."""
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.chosen = False
         self.checked_time = 0.0
         self.choices = 0

@@ -43,7 +43,7 @@ class PoweredGuidance(ZemZevGuidance):
     steering = State(SteeringState)
     handed_over = State(False, description="true: ZEM/ZEV guidance has replaced linear-tangent steering")
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.chosen = False
         self.checked_time = 0.0
         self.choices = 0

@@ -166,14 +166,14 @@ class TerminalGuidance(Block, interface=True):
         self.cycle = self.sample_period
         self.expected_time = self.planned_time(0.0)
         self.aim()
-        self.judge()
+        self.check_solution()
         if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = 0.0
             self.command.thrust_acceleration = 0.0
         elif self.terminal_step == TerminalStep.EXACT and not self.plan_frozen():
             self.command.burn_duration = self.time_to_go
 
-    def judge(self) -> None:
+    def check_solution(self) -> None:
         """Set ``started`` after a solution with time left; until then a good status is replaced by no solution."""
         if self.time_to_go > 0.0 and self.status < TerminalStatus.NOT_CONVERGED:
             self.started = True
@@ -184,15 +184,15 @@ class TerminalGuidance(Block, interface=True):
     def step(self, t: float, h: float) -> None:
         if not self.active:
             if self.under_way:
-                self.rest()
+                self.deactivate()
         elif not self.under_way:
             self.under_way = True
             self.take_target()
             self.begin(t + h)
         else:
-            self.go_on(t, h)
+            self.process_sample(t, h)
 
-    def rest(self) -> None:
+    def deactivate(self) -> None:
         """Deactivate: withdraw the command and reset all states."""
         self.under_way = False
         self.started = False
@@ -204,12 +204,12 @@ class TerminalGuidance(Block, interface=True):
         self.command.burn_duration = UNLIMITED
         self.time_to_go = 0.0
         self.status = TerminalStatus.GOOD
-        self.forget()
+        self.reset_law()
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         """Reset the states of a derived law to their start values; no action unless overridden."""
 
-    def go_on(self, t: float, h: float) -> None:
+    def process_sample(self, t: float, h: float) -> None:
         """Process the sample at t + h (s): hold the command of a last burn, finish, or issue a new command."""
         if not self.finished:
             self.cycle = self.sample_period
@@ -258,11 +258,11 @@ class TerminalGuidance(Block, interface=True):
         if self.divert_count != self.flown_divert:
             self.divert()
             self.started = False
-            self.forget()
+            self.reset_law()
         if self.commanding and not self.started:
             self.expected_time = self.planned_time(0.0)
         self.aim()
-        self.judge()
+        self.check_solution()
         if self.status >= TerminalStatus.NOT_CONVERGED:
             self.time_to_go = left
             if not self.commanding:

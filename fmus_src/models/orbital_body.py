@@ -45,7 +45,7 @@ class OrbitalBody(Block, interface=True):
         [0.0] * 9, columns=3, description="inverse of the body's inertia matrix, 1/(kg m2) (body frame)"
     )
 
-    def weigh(self) -> bool:
+    def invert_inertia(self) -> bool:
         """Set inverse_inertia; return True if the inertia matrix is invertible."""
         self.inverse_inertia, invertible = inverse(self.inertia)
         return invertible

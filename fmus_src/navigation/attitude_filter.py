@@ -148,10 +148,10 @@ class AttitudeFilter(Block):
         self.covariance[DISTURBANCE, DISTURBANCE] = self.first_disturbance_sigma * self.first_disturbance_sigma
         self.take_sample()
         if self.summed > 0:
-            self.put_out_mean(self.start_time)
+            self.output_mean(self.start_time)
         self.publish()
 
-    def widen(self) -> None:
+    def increase_disturbance_variance(self) -> None:
         """Increase the variance of the disturbance according to the change of the jets' force."""
         jump = self.jet_force - self.last_force
         self.last_force = self.jet_force
@@ -168,7 +168,7 @@ class AttitudeFilter(Block):
         self.quaternion = normalise(multiply(self.quaternion, rotation))
         momentum_body = to_body(rotation, momentum_body + impulse_body) + impulse_body
         self.angular_velocity = (momentum_body - self.gyro_momentum) / self.inertia
-        self.widen()
+        self.increase_disturbance_variance()
         self.covariance = predict_triple(self.covariance, self.process_noise, self.disturbance_noise, h)
 
     def take_sample(self) -> None:
@@ -207,7 +207,7 @@ class AttitudeFilter(Block):
         turned = from_rotation_vector(gain[TRACKED, 0] * innovation)
         self.quaternion = normalise(multiply(self.quaternion, turned))
 
-    def put_out_mean(self, time: float) -> None:
+    def output_mean(self, time: float) -> None:
         """Output the mean of the samples since the previous mean, at ``time`` (s)."""
         elapsed = time - self.mean_time
         mean = self.total / float(self.summed)
@@ -239,7 +239,7 @@ class AttitudeFilter(Block):
             self.predict(t + h - self.last_time)
         self.take_sample()
         if self.summed >= self.mean_samples:
-            self.put_out_mean(t + h)
+            self.output_mean(t + h)
         self.last_momentum = self.gyro_momentum
         self.last_time = t + h
         self.publish()

@@ -88,7 +88,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.turn_starts[0] = start
         self.turn_ends[0] = end
 
-    def turned_on(self, q: Vector4) -> Vector4:
+    def propagate_by_gyros(self, q: Vector4) -> Vector4:
         """Return an attitude of star_time propagated by the gyros, at a constant rate in each sample period."""
         if self.star_time < 0.0:
             return q
@@ -138,7 +138,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         if self.star_time >= 0.0 and self.star_time < self.turn_starts[TURNS - 1] - sampling.TIME_ROUNDING:
             self.status = AttitudeNavigationStatus.TOO_LATE
             return
-        measured = self.turned_on(normalise(self.measured_quaternion))
+        measured = self.propagate_by_gyros(normalise(self.measured_quaternion))
         if not self.begun:
             self.begun = True
             self.last_star = t

@@ -10,13 +10,13 @@ class AttitudeNavigationIdeal(AttitudeNavigation):
     """
 
     def initialize(self) -> None:
-        self.pass_on()
+        self.set_outputs()
 
-    def pass_on(self) -> None:
+    def set_outputs(self) -> None:
         """Set the estimate to the true motion."""
         self.attitude_known = True
         self.estimated_quaternion = self.quaternion
         self.estimated_angular_velocity = self.angular_velocity
 
     def step(self, t: float, h: float) -> None:
-        self.pass_on()
+        self.set_outputs()

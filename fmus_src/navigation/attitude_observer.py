@@ -123,7 +123,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         """Return the mean torque (N m, body) over the sample period of ``pulses`` (s) and the constant torque."""
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
-    def carry(self, split: bool) -> AttitudeState:
+    def propagate_estimate(self, split: bool) -> AttitudeState:
         """Return the previous estimate propagated over a sample period: with ``split`` pulse by pulse, otherwise
         under the mean torque.
         """
@@ -143,7 +143,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         angles = math.isfinite(self.measured_roll) and math.isfinite(self.measured_pitch)
         return angles and is_finite(self.measured_angular_velocity)
 
-    def judge(self) -> None:
+    def update_status(self) -> None:
         """Set the status according to the sample."""
         self.status = ObserverStatus.GOOD
         if not self.finite():
@@ -163,7 +163,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
 
     def coast(self) -> None:
         """Propagate the estimate without a sample."""
-        self.estimate = self.carry(True)
+        self.estimate = self.propagate_estimate(True)
 
     def bound(self) -> None:
         """Limit yaw to largest_yaw."""
@@ -180,7 +180,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         self.estimated_angular_velocity = self.estimate.angular_velocity
 
     def initialize(self) -> None:
-        self.usable = self.weigh()
+        self.usable = self.invert_inertia()
         if self.usable:
             self.usable = self.begin()
         self.status = ObserverStatus.GOOD
@@ -195,7 +195,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
 
     def step(self, t: float, h: float) -> None:
         self.ticks = self.ticks + 1
-        self.judge()
+        self.update_status()
         if self.status == ObserverStatus.GOOD:
             self.observe()
             self.remember()

@@ -50,7 +50,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
     docs/systems/lunar_navigation.md.
     """
 
-    to_write = ("predict", "weigh", "take_in")
+    to_write = ("predict", "variance_of_innovation", "correct")
 
     bias_sigma = landing.BIAS_SIGMA.parameter()
     scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter()
@@ -142,16 +142,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
     def predict(self, h: float) -> None:
         """Propagate the covariance by h (s) under the specific force."""
 
-    def weigh(self, row: Matrix, variance: float) -> float:
+    def variance_of_innovation(self, row: Matrix, variance: float) -> float:
         """Return the variance of a scalar's innovation; ``row`` contains its derivatives with respect to the states."""
         return 0.0
 
-    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
+    def correct(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
         """Update the covariance; return the corrections of the states by the innovation, as a column."""
         return zeros(STATES, 1)
 
     def initialize(self) -> None:
-        self.know()
+        self.initialise_estimate()
         self.covariance = start_errors(
             self.first_position_sigma,
             self.first_velocity_sigma,
@@ -187,10 +187,10 @@ class FilteredNavigation(InertialNavigation, interface=True):
         row[0, POSITION] = up
         return distance - self.moon_radius
 
-    def consider(self, sensor: int, row: Matrix, innovation: float, sigma: float) -> float:
+    def process_scalar(self, sensor: int, row: Matrix, innovation: float, sigma: float) -> float:
         """Process or reject a scalar; return its normalised innovation squared."""
         variance = sigma * sigma
-        s = self.weigh(row, variance)
+        s = self.variance_of_innovation(row, variance)
         if not s > 0.0:
             return 0.0  # neither estimate nor sensor has an error
         square = innovation * innovation / s
@@ -202,14 +202,14 @@ class FilteredNavigation(InertialNavigation, interface=True):
                 return square
             growth = (innovation * innovation - variance) / (s - variance)  # makes the innovation one sigma
             self.covariance = growth * self.covariance
-            s = self.weigh(row, variance)
-        correction = self.take_in(row, innovation, s, variance)
+            s = self.variance_of_innovation(row, variance)
+        correction = self.correct(row, innovation, s, variance)
         self.estimated_position = self.estimated_position + correction[POSITION, 0]
         self.estimated_velocity = self.estimated_velocity + correction[VELOCITY, 0]
         self.sensor_errors = self.sensor_errors + correction[SENSOR_ERRORS, :]
         return square
 
-    def note(self, sensor: int, rejected_before: int) -> None:
+    def count_sample(self, sensor: int, rejected_before: int) -> None:
         """Count a processed sample, and update the sensor's number of consecutive rejections."""
         self.sample_count = self.sample_count + 1
         if self.rejected_count > rejected_before:
@@ -226,8 +226,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
             altitude = self.altitude(radial)
             sigma = self.altitude_relative_sigma * abs(altitude) + self.altitude_sigma
             innovation = self.measured_altitude - altitude
-            self.altitude_innovation_square = self.consider(ALTIMETER, radial, innovation, sigma)
-            self.note(ALTIMETER, before)
+            self.altitude_innovation_square = self.process_scalar(ALTIMETER, radial, innovation, sigma)
+            self.count_sample(ALTIMETER, before)
         before = self.rejected_count
         if self.velocity_count != self.velocity_taken:
             self.velocity_taken = self.velocity_count
@@ -236,10 +236,12 @@ class FilteredNavigation(InertialNavigation, interface=True):
             for i in range(3):
                 row = zeros(1, STATES)
                 row[0, 3 + i] = 1.0
-                square = self.consider(VELOCIMETER, row, self.measured_velocity[i] - self.estimated_velocity[i], sigma)
+                square = self.process_scalar(
+                    VELOCIMETER, row, self.measured_velocity[i] - self.estimated_velocity[i], sigma
+                )
                 total = total + square
             self.velocity_innovation_square = total
-            self.note(VELOCIMETER, before)
+            self.count_sample(VELOCIMETER, before)
         before = self.rejected_count
         if self.position_count != self.position_taken:
             self.position_taken = self.position_count
@@ -249,10 +251,10 @@ class FilteredNavigation(InertialNavigation, interface=True):
             for i in range(3):
                 row = zeros(1, STATES)
                 row[0, i] = 1.0
-                square = self.consider(CAMERA, row, self.measured_position[i] - self.estimated_position[i], sigma)
+                square = self.process_scalar(CAMERA, row, self.measured_position[i] - self.estimated_position[i], sigma)
                 total = total + square
             self.position_innovation_square = total
-            self.note(CAMERA, before)
+            self.count_sample(CAMERA, before)
 
     def publish(self) -> None:
         """Output sigmas, covariance, bias and status."""

@@ -57,7 +57,7 @@ class InertialNavigation(Navigation, interface=True):
     velocity_taken = State(0, description="velocity_count of the last velocity sample used")
     position_taken = State(0, description="position_count of the last position sample used")
 
-    def know(self) -> None:
+    def initialise_estimate(self) -> None:
         """Initialise the estimate: truth plus initial errors."""
         generator = [0.0] * 6
         seed_streams(generator, self.seed, self.stream)

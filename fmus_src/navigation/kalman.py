@@ -2,7 +2,7 @@
 
 from ..kernel.matrices import Matrix
 from ..mathlib.estimation.inertial import predict_errors
-from ..mathlib.estimation.kalman import innovation_variance, take_in
+from ..mathlib.estimation.kalman import innovation_variance, update_covariance
 from .filtered_navigation import FilteredNavigation
 
 
@@ -18,9 +18,9 @@ class KalmanNavigation(FilteredNavigation):
         up, gradient = self.local_gradient()
         predict_errors(self.covariance, self.force, not self.free_flight, walk, drift, up, gradient, h)
 
-    def weigh(self, row: Matrix, variance: float) -> float:
+    def variance_of_innovation(self, row: Matrix, variance: float) -> float:
         return innovation_variance(self.covariance, row, variance)
 
-    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
-        gain, self.covariance = take_in(self.covariance, row, s, variance)
+    def correct(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
+        gain, self.covariance = update_covariance(self.covariance, row, s, variance)
         return gain * innovation

@@ -48,11 +48,11 @@ class KalmanNavigationFilterpy(FilteredNavigation):
         made.predict()
         self.covariance = made.P
 
-    def weigh(self, row: Matrix, variance: float) -> float:
+    def variance_of_innovation(self, row: Matrix, variance: float) -> float:
         (h,) = np.array(row)
         return float(h @ self.filter().P @ h + variance)
 
-    def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
+    def correct(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
         made = self.filter()
         made.update(np.array([[innovation]]), R=np.array([[variance]]), H=np.array(row))
         self.covariance = made.P

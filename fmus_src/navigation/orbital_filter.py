@@ -106,7 +106,7 @@ class OrbitalFilter(AttitudeObserver):
         self.estimate = replace(self.estimate, angular_velocity=rates)
 
     def coast(self) -> None:
-        carried = self.carry(True)
+        carried = self.propagate_estimate(True)
         self.advance(0.5 * (self.estimate.angular_velocity + carried.angular_velocity))
         self.estimate = carried
 

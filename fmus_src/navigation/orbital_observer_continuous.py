@@ -39,4 +39,4 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
         return self.motion(s, torque) + self.correction(s, self.last_roll, self.last_pitch, self.last_rates)
 
     def observe(self) -> None:
-        self.estimate = self.carry(self.split)
+        self.estimate = self.propagate_estimate(self.split)

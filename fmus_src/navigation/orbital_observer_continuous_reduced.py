@@ -43,6 +43,6 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
         self.take_measured(self.z + fraction * self.measured_roll)
 
     def coast(self) -> None:
-        self.estimate = self.carry(True)
+        self.estimate = self.propagate_estimate(True)
         fraction = -self.reduced_yaw_pole / self.orbital_rate
         self.z = self.estimate.angles.y - fraction * self.estimate.angles.x

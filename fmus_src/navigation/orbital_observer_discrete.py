@@ -49,5 +49,5 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
         return True
 
     def observe(self) -> None:
-        s = self.carry(self.split)
+        s = self.propagate_estimate(self.split)
         self.estimate = s + self.correction(s, self.measured_roll, self.measured_pitch, self.measured_angular_velocity)

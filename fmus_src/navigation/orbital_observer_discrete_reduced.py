@@ -26,7 +26,7 @@ class OrbitalObserverDiscreteReduced(AttitudeObserver):
     )
 
     def observe(self) -> None:
-        carried = self.carry(self.split)
+        carried = self.propagate_estimate(self.split)
         turn = self.orbital_rate * self.sample_period
         gain = (1.0 - exp(-self.reduced_yaw_pole * self.sample_period)) / turn
         self.take_measured(carried.angles.y - gain * (self.measured_roll - carried.angles.x))

@@ -56,7 +56,7 @@ class OrbitalSequence(AttitudeObserver):
     def observe(self) -> None:
         yaw = 0.0
         if self.stage == Stage.HOLDING:
-            carried = self.carry(True)
+            carried = self.propagate_estimate(True)
             yaw = carried.angles.y
         elif self.stage == Stage.AVERAGING:
             yaw = self.average()

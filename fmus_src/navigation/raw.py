@@ -14,15 +14,15 @@ class RawNavigation(InertialNavigation):
     """
 
     def initialize(self) -> None:
-        self.know()
-        self.put_in()
+        self.initialise_estimate()
+        self.use_samples()
 
-    def put_in(self) -> None:
+    def use_samples(self) -> None:
         """Replace the estimate by the new samples."""
         if self.altitude_count != self.altitude_taken:
             self.altitude_taken = self.altitude_count
             self.sample_count = self.sample_count + 1
-            self.rise_to(self.measured_altitude)
+            self.correct_altitude(self.measured_altitude)
         if self.velocity_count != self.velocity_taken:
             self.velocity_taken = self.velocity_count
             self.sample_count = self.sample_count + 1
@@ -32,7 +32,7 @@ class RawNavigation(InertialNavigation):
             self.sample_count = self.sample_count + 1
             self.estimated_position = self.measured_position
 
-    def rise_to(self, altitude: float) -> None:
+    def correct_altitude(self, altitude: float) -> None:
         """Move the estimated position along the local vertical to an altitude (m)."""
         centred = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(centred)
@@ -43,4 +43,4 @@ class RawNavigation(InertialNavigation):
     def step(self, t: float, h: float) -> None:
         self.sense(h)
         self.move(h)
-        self.put_in()
+        self.use_samples()

@@ -121,7 +121,7 @@ class TranslationFilter(Block):
         self.covariance[RATE, RATE] = self.first_velocity_sigma * self.first_velocity_sigma
         self.take_sample()
         if self.method == FilterMethod.MEAN:
-            self.put_out_mean(self.start_time)
+            self.output_mean(self.start_time)
         self.publish()
 
     def remember_attitude(self) -> None:
@@ -181,7 +181,7 @@ class TranslationFilter(Block):
         self.position_error = self.position_error + gain[TRACKED, 0] * innovation
         self.velocity_error = self.velocity_error + gain[RATE, 0] * innovation
 
-    def put_out_mean(self, time: float) -> None:
+    def output_mean(self, time: float) -> None:
         """Output the mean of the samples since the last sample of translation control, at ``time`` (s)."""
         if self.summed == 0:
             return
@@ -209,7 +209,7 @@ class TranslationFilter(Block):
         if self.translation_count != self.ticks:
             self.ticks = self.translation_count
             if self.method == FilterMethod.MEAN:
-                self.put_out_mean(t + h)
+                self.output_mean(t + h)
         if self.method != FilterMethod.MEAN and not is_attitude(self.quaternion):
             self.status = SampleStatus.NO_ATTITUDE
         self.last_velocity = self.planned_velocity

@@ -61,14 +61,14 @@ class AttitudeMoonLander(MoonLander):
     probe_contact = landing.PROBE_CONTACT.output()
 
     def initialize(self) -> None:
-        self.place()
+        self.initialise_motion()
         self.divide(0.0)
         length = norm(self.initial_attitude)
         if length > 0.0:
             self.attitude = self.initial_attitude / length
         self.angular_rate = across(self.initial_angular_rate, self.attitude)
         self.touch_probe()
-        self.look()
+        self.set_tilt_and_speeds()
 
     def height(self, position: Vector3) -> float:
         """Return the altitude (m) at a position (m)."""
@@ -153,7 +153,7 @@ class AttitudeMoonLander(MoonLander):
         if self.altitude <= self.probe_length:
             self.probe_contact = True
 
-    def look(self) -> None:
+    def set_tilt_and_speeds(self) -> None:
         """Set tilt and the speeds along and across the local vertical."""
         up = self.vertical()
         self.tilt = atan2(norm(cross(self.attitude, up)), dot(self.attitude, up))
@@ -164,5 +164,5 @@ class AttitudeMoonLander(MoonLander):
         commanded = self.thrust_factor * self.thrust
         if commanded < 0.0:
             commanded = 0.0
-        self.fly(t, h, commanded)
-        self.look()
+        self.advance_motion(t, h, commanded)
+        self.set_tilt_and_speeds()

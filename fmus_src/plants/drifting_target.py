@@ -43,9 +43,9 @@ class DriftingTarget(Block):
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:
-        self.place(0.0)
+        self.set_motion(0.0)
 
-    def place(self, time: float) -> None:
+    def set_motion(self, time: float) -> None:
         """Set position and attitude at ``time`` (s) after the start."""
         rotation = vector(0.0, 0.0, 0.0)
         length = norm(self.spin_axis)
@@ -59,4 +59,4 @@ class DriftingTarget(Block):
             self.quaternion = -self.quaternion
 
     def step(self, t: float, h: float) -> None:
-        self.place(t + h - self.start_time)
+        self.set_motion(t + h - self.start_time)

@@ -307,7 +307,7 @@ class EntryCapsule(Block):
             return -self.jet_factor[negative] * self.jet_torque[negative]
         return 0.0
 
-    def fly(self, t: float, h: float) -> None:
+    def advance_motion(self, t: float, h: float) -> None:
         """Advance the motion by h (s), divided where a pulse ends."""
         time = 0.0
         while time < h:
@@ -349,7 +349,7 @@ class EntryCapsule(Block):
             self.left = self.pulse_lengths
             self.fired_pulses = self.pulse_lengths
         if self.status != CapsuleStatus.NO_INERTIA:
-            self.fly(t, h)
+            self.advance_motion(t, h)
         before = lengths_of(self.left)
         self.left = left_after(self.left, h)
         self.jet_seconds = self.jet_seconds + before - lengths_of(self.left)

@@ -86,7 +86,7 @@ class MoonLander(Block, interface=True):
         ),
     )
 
-    def place(self) -> None:
+    def initialise_motion(self) -> None:
         """Set mass and motion to their initial values."""
         self.mass = self.initial_mass
         self.position = self.initial_position
@@ -174,7 +174,7 @@ class MoonLander(Block, interface=True):
     def burn_ended(self) -> None:
         """React to the end of a burn within a step; no action unless overridden."""
 
-    def fly(self, t: float, h: float, commanded: float) -> None:
+    def advance_motion(self, t: float, h: float, commanded: float) -> None:
         """Advance from t to t + h (s) under a commanded thrust (N), and set the outputs of the motion."""
         gained = vector(0.0, 0.0, 0.0)
         pieces = count_steps(h, self.longest_step)

@@ -55,7 +55,7 @@ class OrbitalSpacecraft(OrbitalBody):
     def initialize(self) -> None:
         self.angles = self.initial_angles
         self.angular_velocity = self.initial_angular_velocity
-        invertible = self.weigh()
+        invertible = self.invert_inertia()
         if not invertible:
             self.status = SpacecraftStatus.NO_INERTIA
 

@@ -49,7 +49,7 @@ class SphericalMoonLander(MoonLander):
     )
 
     def initialize(self) -> None:
-        self.place()
+        self.initialise_motion()
         self.response = self.direction_response
         if self.response < 0.01 * self.internal_step:
             self.response = 0.0
@@ -95,4 +95,4 @@ class SphericalMoonLander(MoonLander):
         commanded = self.thrust
         if commanded < 0.0:
             commanded = 0.0
-        self.fly(t, h, commanded)
+        self.advance_motion(t, h, commanded)

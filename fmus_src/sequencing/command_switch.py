@@ -45,12 +45,12 @@ class CommandSwitch(Block):
     def switch(self) -> None:
         """Output the command of the source; after a plan request hold the last command until a plan answers it."""
         if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
-            self.pass_on()
+            self.copy_command()
         self.command.thrust_acceleration = 0.0
         if self.engine_on:
             self.command.thrust_acceleration = self.passed_thrust_acceleration
 
-    def pass_on(self) -> None:
+    def copy_command(self) -> None:
         """Copy the command of the source to the outputs."""
         self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
         if self.source == CommandSource.OWN:

@@ -30,9 +30,9 @@ class FlightMonitor(Block):
     ground_contact = landing.GROUND_CONTACT.output(direct=True)
 
     def initialize(self) -> None:
-        self.judge()
+        self.latch_conditions()
 
-    def judge(self) -> None:
+    def latch_conditions(self) -> None:
         """Latch the conditions that hold."""
         slow = self.speed < self.handover_speed
         if slow and self.altitude >= self.handover_altitude_low and self.altitude <= self.handover_altitude_high:
@@ -43,4 +43,4 @@ class FlightMonitor(Block):
             self.finished = True
 
     def step(self, t: float, h: float) -> None:
-        self.judge()
+        self.latch_conditions()

@@ -76,7 +76,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.site = site_below(place, self.moon_radius)
         altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
         self.target_position = above_site(self.site, altitude, self.moon_radius)
-        self.note(LandingStatus.SITE_MOVED, time)
+        self.record_status(LandingStatus.SITE_MOVED, time)
 
     def is_settled(self) -> bool:
         """Return True if the vehicle hovers at its target."""
@@ -89,7 +89,7 @@ class HoverPhases(LandingSequence, interface=True):
         if waited >= self.hover_time and self.is_settled():
             return True
         if waited >= self.hover_patience:
-            self.note(LandingStatus.TIMEOUT, ahead)
+            self.record_status(LandingStatus.TIMEOUT, ahead)
             return True
         return False
 
@@ -107,7 +107,7 @@ class HoverPhases(LandingSequence, interface=True):
         """Move the site by a re-designation of at most ``reach`` (m)."""
         reached, allowed = within_reach(move, reach)
         if not reached:
-            self.note(LandingStatus.SHORTENED, time)
+            self.record_status(LandingStatus.SHORTENED, time)
         self.site = redesignate(self.site, allowed, self.moon_radius)
 
     def begin_transfer(self, time: float) -> None:
@@ -123,7 +123,7 @@ class HoverPhases(LandingSequence, interface=True):
         if self.is_answered() and not self.plan_judged:
             self.plan_judged = True
             if self.sampled_mass - self.sampled_propellant - self.reserve < self.dry_mass:
-                self.note(LandingStatus.DROPPED, ahead)
+                self.record_status(LandingStatus.DROPPED, ahead)
                 self.site = self.first_site
                 self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
                 self.request_plan(HoverMode.PROGRAMME)
@@ -151,7 +151,7 @@ class HoverPhases(LandingSequence, interface=True):
         if self.sampled_probe_contact:
             return True
         if self.sampled_ground_contact or altitude_of(self.sampled_position, self.moon_radius) <= self.cut_altitude:
-            self.note(LandingStatus.CUT_OFF, ahead)
+            self.record_status(LandingStatus.CUT_OFF, ahead)
             return True
         if self.hover_mode == HoverMode.HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
             self.request_plan(HoverMode.DESCEND)

@@ -99,7 +99,7 @@ class LandingSequence(LandingInputs, interface=True):
     finished = landing.FINISHED.output()
     mass_is_known = State(False, description="true: phase_mass of the current phase set")
 
-    def note(self, status: int, time: float) -> None:
+    def record_status(self, status: int, time: float) -> None:
         """Record a status at ``time`` (s)."""
         if self.status_time[status - 1] < 0.0:
             self.status_time[status - 1] = time

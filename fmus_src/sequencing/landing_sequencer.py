@@ -33,7 +33,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         self.last_thrust = self.start_time
         if self.is_refused():
             self.phase = LandingPhase.REFUSED
-            self.note(LandingStatus.REFUSED, self.start_time)
+            self.record_status(LandingStatus.REFUSED, self.start_time)
             self.finished = True
         else:
             self.enter(self.start_phase, self.start_time)
@@ -84,9 +84,9 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     def watch(self, ahead: float) -> None:
         """Record the conditions that can occur in any phase."""
         if self.is_answered() and self.sampled_hover_status != HoverStatus.GOOD:
-            self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
+            self.record_status(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
-            self.note(LandingStatus.OUT_OF_PROPELLANT, ahead)
+            self.record_status(LandingStatus.OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
         """Start the first hover, over the site or over the point where braking ended."""
@@ -94,7 +94,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         if how == PhaseEnd.ELSEWHERE:
             self.move_site_ahead(ahead)
 
-    def go_on(self, t: float, ahead: float) -> None:
+    def run_phase(self, t: float, ahead: float) -> None:
         """Run one of the phases up to braking, and start the next one when it ends."""
         if self.phase == LandingPhase.DEORBIT:
             said = self.deorbit(t, ahead)
@@ -110,9 +110,9 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             if said != PhaseEnd.GOES_ON:
                 self.end_braking(said, ahead)
         else:
-            self.go_on_below(t, ahead)
+            self.run_phase_from_hover(t, ahead)
 
-    def go_on_below(self, t: float, ahead: float) -> None:
+    def run_phase_from_hover(self, t: float, ahead: float) -> None:
         """Run one of the phases from the first hover on, and start the next one when it ends."""
         over = False
         if self.phase == LandingPhase.HOVER_1:
@@ -149,10 +149,10 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         if self.phase == LandingPhase.CONTACT:
             self.finished = self.sampled_ground_contact
         elif self.sampled_ground_contact and self.phase < LandingPhase.DESCENT:
-            self.note(LandingStatus.CUT_OFF, ahead)
+            self.record_status(LandingStatus.CUT_OFF, ahead)
             self.enter(LandingPhase.CONTACT, ahead)
         else:
-            self.go_on(t, ahead)
+            self.run_phase(t, ahead)
         if self.phase == LandingPhase.CONTACT:
             self.face_up(t)
         if self.engine_on:

@@ -145,7 +145,7 @@ class OrbitPhases(LandingSequence, interface=True):
         if self.engine_on and ahead >= self.command.command_time + self.command.burn_duration - ROUNDING:
             return PhaseEnd.OVER
         if self.engine_on and ahead - self.ignition_time >= self.deorbit_patience * self.planned_burn:
-            self.note(LandingStatus.TIMEOUT, ahead)
+            self.record_status(LandingStatus.TIMEOUT, ahead)
             return PhaseEnd.OVER
         return PhaseEnd.GOES_ON
 
@@ -167,7 +167,7 @@ class OrbitPhases(LandingSequence, interface=True):
         elif self.falling_since < 0.0:
             self.falling_since = t
         if self.falling_since >= 0.0 and ahead - self.falling_since >= self.coast_patience - ROUNDING:
-            self.note(LandingStatus.TIMEOUT, ahead)
+            self.record_status(LandingStatus.TIMEOUT, ahead)
             return PhaseEnd.OVER
         return PhaseEnd.GOES_ON
 
@@ -200,7 +200,7 @@ class OrbitPhases(LandingSequence, interface=True):
         if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
         elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
-            self.note(LandingStatus.TIMEOUT, ahead)
+            self.record_status(LandingStatus.TIMEOUT, ahead)
             self.engine_on = True
 
     def brake(self, t: float, ahead: float) -> int:
@@ -216,7 +216,7 @@ class OrbitPhases(LandingSequence, interface=True):
         far = ground_range(self.sampled_position, self.moon_radius) > self.far_range
         unsolved = self.unsolved_since >= 0.0 and ahead - self.unsolved_since >= self.solution_patience - ROUNDING
         if unsolved or self.since_start(ahead) >= self.braking_patience - ROUNDING:
-            self.note(LandingStatus.BRAKING_FAILED, ahead)
+            self.record_status(LandingStatus.BRAKING_FAILED, ahead)
             return PhaseEnd.ELSEWHERE if far else PhaseEnd.OVER
         # without a solution since its start, the guidance outputs a time to go of 0
         counts = self.sampled_braking_status < TerminalStatus.NOT_CONVERGED or self.sampled_time_to_go > 0.0

@@ -34,7 +34,7 @@ def find_ranges(kernel: Kernel) -> None:
     for function in reversed(kernel.functions):
         ranges = _Ranges(kernel, function)
         ranges.settle()
-        ranges.judge()
+        ranges.check()
 
 
 class _Ranges:
@@ -131,7 +131,7 @@ class _Ranges:
                 return inner
         return INT64
 
-    def judge(self) -> None:
+    def check(self) -> None:
         """Record run-time checks, report definite errors, and pass ranges on to callees."""
         function = self.function
         for node, kind in list(function.types.items()):

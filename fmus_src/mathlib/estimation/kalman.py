@@ -2,8 +2,8 @@
 
 The estimate x is a column of n elements with covariance P, n x n. Measurements are scalars z = h x + error with a row
 h, processed one after another; this needs no matrix inverse and is exact for independent errors. `update` processes a
-linear measurement in one call; `innovation_variance` and `take_in` divide the update into two calls, for a gate between
-them and for nonlinear measurements.
+linear measurement in one call; `innovation_variance` and `update_covariance` divide the update into two calls, for a
+gate between them and for nonlinear measurements.
 
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 5.4 and 7.4.
 """
@@ -25,7 +25,7 @@ def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
     return s
 
 
-def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Matrix]:
+def update_covariance(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Matrix]:
     """Return the gain K = P h'/S and the covariance after a scalar with the innovation variance S > 0.
 
     The caller updates x to x + K innovation. The covariance is computed in the Joseph form, P = (1 - K h) P (1 - K h)'
@@ -45,5 +45,5 @@ def update(x: Matrix, p: Matrix, h: Matrix, variance: float, z: float) -> tuple[
     s = innovation_variance(p, h, variance)
     predicted = h @ x
     innovation = z - predicted[0, 0]
-    k, corrected = take_in(p, h, s, variance)
+    k, corrected = update_covariance(p, h, s, variance)
     return x + k * innovation, corrected, innovation * innovation / s

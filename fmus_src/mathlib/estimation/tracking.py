@@ -8,7 +8,7 @@ Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 6.2.2 and 6.2.3 (disc
 """
 
 from ...kernel.matrices import Matrix, matrix, zeros
-from .kalman import innovation_variance, predict, take_in
+from .kalman import innovation_variance, predict, update_covariance
 
 # Rows and columns: value, rate, disturbance of the rate.
 TRACKED = 0
@@ -47,5 +47,5 @@ def measure_chain(p: Matrix, variance: float) -> tuple[Matrix, Matrix, float]:
     h = zeros(1, len(p))
     h[0, TRACKED] = 1.0
     s = innovation_variance(p, h, variance)
-    k, corrected = take_in(p, h, s, variance)
+    k, corrected = update_covariance(p, h, s, variance)
     return k, corrected, s

@@ -9,7 +9,7 @@ Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table
 
 from ...kernel.functions import cos, log, sin
 from ...kernel.records import Field, Record
-from .shape import HoverProgramme, HoverShape, burnt, full_thrust, pitch_segment, shape_of
+from .shape import HoverProgramme, HoverShape, full_thrust, full_thrust_time, pitch_segment, shape_of
 
 LONGEST = 30.0  # s; longest interval of eight nodes, for errors below 1e-9 of the motion
 
@@ -48,7 +48,7 @@ def without_motion() -> PlaneMotion:
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
     """Return the propellant used until t (s, at most the end of the shape s), divided by the initial mass."""
-    return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
+    return (vehicle.least * t + (vehicle.full - vehicle.least) * full_thrust_time(s, t)) / vehicle.exhaust
 
 
 def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
@@ -117,18 +117,18 @@ def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float
     thrust = vehicle.least
     if full_thrust(s, begin):
         thrust = vehicle.full
-    end = earlier(s.t1, begin, end)
-    end = earlier(s.t3, begin, end)
-    end = earlier(s.t4, begin, end)
-    end = earlier(s.t6, begin, end)
-    end = earlier(s.t7, begin, end)
-    end = earlier(s.first_burn_begin, begin, end)
-    end = earlier(s.first_burn_end, begin, end)
-    end = earlier(s.last_burn_begin, begin, end)
+    end = earlier_end(s.t1, begin, end)
+    end = earlier_end(s.t3, begin, end)
+    end = earlier_end(s.t4, begin, end)
+    end = earlier_end(s.t6, begin, end)
+    end = earlier_end(s.t7, begin, end)
+    end = earlier_end(s.first_burn_begin, begin, end)
+    end = earlier_end(s.first_burn_end, begin, end)
+    end = earlier_end(s.last_burn_begin, begin, end)
     return ThrustSpan(end=end, thrust=thrust)
 
 
-def earlier(time: float, begin: float, end: float) -> float:
+def earlier_end(time: float, begin: float, end: float) -> float:
     """Return the time (s) if it lies between begin and end, otherwise the end."""
     if time > begin and time < end:
         return time

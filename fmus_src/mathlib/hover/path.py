@@ -49,7 +49,7 @@ def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
     return solve(PlanKind.VERTICAL, start, vehicle, 0.0, y)
 
 
-def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+def tilt_programme(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
     """Return the vertical programme p tilted to end at about x (m) horizontally, or p if this is impossible.
 
     The thrust angle is about -u (1 - t/t7) + v t/t7, and the end depends linearly on u and v, which are determined by x
@@ -75,12 +75,12 @@ def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSol
     return HoverSolution(programme=tilted, is_feasible=True)
 
 
-def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
+def scale_turns(p: HoverProgramme, factor: float) -> HoverProgramme:
     """Return the programme with the durations of both turns multiplied by a factor."""
     return replace(p, t2=factor * p.t2, t5=p.t7 - factor * (p.t7 - p.t5))
 
 
-def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
+def shift_end(p: HoverProgramme, end: float) -> HoverProgramme:
     """Return the programme with another end time (s) and its last burn shifted accordingly."""
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
@@ -95,15 +95,15 @@ def solve_farther(
     goal = growth * distance
     if goal > x:
         goal = x
-    return solve(kind, widen(p, math.sqrt(goal / distance)), vehicle, goal, y), goal
+    return solve(kind, scale_turns(p, math.sqrt(goal / distance)), vehicle, goal, y), goal
 
 
-def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
+def continue_without_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
     """Continue the vertical programme p to one without first burn that reaches x or comes as near as possible."""
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
-    near = little_aside(place, vehicle, p)
+    near = tilt_programme(place, vehicle, p)
     if near.is_feasible:
         near = solve(PlanKind.WITHOUT_FIRST_BURN, near.programme, vehicle, place, y)
     p = near.programme
@@ -121,12 +121,12 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
     return ReachedProgramme(programme=p, x=place)
 
 
-def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+def solve_with_end(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
     """Return the programme with first burn that ends at ``end`` (s), starting from p with a similar end."""
-    return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
+    return solve(PlanKind.WITH_FIRST_BURN, shift_end(p, end), vehicle, x, y)
 
 
-def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
+def continue_to_end(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
     """Continue p in steps to the programme with first burn that ends at ``end`` (s), or to the last step possible."""
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
@@ -135,7 +135,7 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
             ahead = end
             if abs(left) > part:
                 ahead = p.t7 + math.copysign(part, left)
-            trial = ending(ahead, x, y, vehicle, p)
+            trial = solve_with_end(ahead, x, y, vehicle, p)
             if trial.is_feasible:
                 p = trial.programme
             else:
@@ -143,7 +143,7 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
     return HoverSolution(programme=p, is_feasible=p.t7 == end)
 
 
-def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
+def continue_with_first_burn(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
     """Continue a programme without first burn to one with first burn that reaches x.
 
     The continuation goes back to a distance at which a first burn begins, then to longer durations, then to larger
@@ -157,15 +157,17 @@ def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle
     for _ in range(BEGINNINGS):
         if not near.is_feasible:
             distance = part * reached.x
-            near = solve(PlanKind.WITHOUT_FIRST_BURN, widen(reached.programme, math.sqrt(part)), vehicle, distance, y)
+            near = solve(
+                PlanKind.WITHOUT_FIRST_BURN, scale_turns(reached.programme, math.sqrt(part)), vehicle, distance, y
+            )
             if near.is_feasible:
                 p = near.programme
                 end = p.t7
-                near = ending(1.01 * end, distance, y, vehicle, replace(p, width=0.1))
+                near = solve_with_end(1.01 * end, distance, y, vehicle, replace(p, width=0.1))
             part = part - NEARER_STILL
     if not near.is_feasible:
         return near
-    longer = stretch(ROOM * end, distance, y, vehicle, near.programme)
+    longer = continue_to_end(ROOM * end, distance, y, vehicle, near.programme)
     p = longer.programme
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
@@ -175,7 +177,7 @@ def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle
                 p = trial.programme
                 distance = goal
             else:
-                longer = stretch(1.04 * p.t7, distance, y, vehicle, p)
+                longer = continue_to_end(1.04 * p.t7, distance, y, vehicle, p)
                 p = longer.programme
                 if not longer.is_feasible:
                     growth = 0.5 * (1.0 + growth)

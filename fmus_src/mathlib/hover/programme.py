@@ -8,7 +8,7 @@ import math
 
 from ...kernel.records import Field, Record, replace
 from .motion import HoverVehicle
-from .path import aside, ending, further, stretch, vertical
+from .path import continue_to_end, continue_with_first_burn, continue_without_first_burn, solve_with_end, vertical
 from .shape import HoverProgramme, without_programme
 from .solution import HoverSolution, PlanKind, propellant_fraction, solve
 
@@ -51,7 +51,7 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
         return nothing_planned()
     if x < STRAIGHT:
         return PlannedProgramme(kind=PlanKind.VERTICAL, programme=down.programme)
-    reached = aside(x, y, vehicle, down.programme)
+    reached = continue_without_first_burn(x, y, vehicle, down.programme)
     if reached.x >= x:
         p = reached.programme
         burning = begin_first_burn(x, y, vehicle, p)
@@ -60,7 +60,7 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
     else:
         if not reached.x > 0.0:
             return nothing_planned()
-        burning = further(reached, x, y, vehicle)
+        burning = continue_with_first_burn(reached, x, y, vehicle)
         if not burning.is_feasible:
             return nothing_planned()
     return PlannedProgramme(kind=PlanKind.WITH_FIRST_BURN, programme=least_propellant(x, y, vehicle, burning.programme))
@@ -109,7 +109,7 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVeh
         return nothing_planned()
     if best.kind == PlanKind.WITHOUT_FIRST_BURN:
         p = replace(p, width=FIRST_WIDTH)
-    timed = stretch(duration, x, y, vehicle, p)
+    timed = continue_to_end(duration, x, y, vehicle, p)
     if not timed.is_feasible:
         return nothing_planned()
     return PlannedProgramme(kind=PlanKind.WITH_FIRST_BURN, programme=timed.programme)
@@ -155,7 +155,7 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
             end = p.t7 + (1.0 - SECTION) * (high - p.t7)
             if p.t7 - low > high - p.t7:
                 end = p.t7 - (1.0 - SECTION) * (p.t7 - low)
-            trial = ending(end, x, y, vehicle, p)
+            trial = solve_with_end(end, x, y, vehicle, p)
             value = propellant_of(trial, vehicle)
             outside = end  # bound of the new bracket
             if value < minimum:
@@ -175,7 +175,7 @@ def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
     before = p.t7
     beyond = p.t7 + way
     for _ in range(LARGEST_PATH):
-        trial = ending(beyond, x, y, vehicle, p)
+        trial = solve_with_end(beyond, x, y, vehicle, p)
         value = propellant_of(trial, vehicle)
         if not value < minimum:
             return Bracket(programme=p, before=before, beyond=beyond)

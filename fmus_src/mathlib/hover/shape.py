@@ -178,7 +178,7 @@ def full_thrust(s: HoverShape, t: float) -> bool:
     return (t >= s.first_burn_begin and t < s.first_burn_end) or (t >= s.last_burn_begin and t < s.t7)
 
 
-def burnt(s: HoverShape, t: float) -> float:
+def full_thrust_time(s: HoverShape, t: float) -> float:
     """Return the time (s) at full thrust between the start and t (s)."""
     time = 0.0
     if t > s.first_burn_begin:

@@ -80,19 +80,19 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
     """Return the state after one iteration."""
     gain = norm(p.gain)
     if not (gain > 0.0 and p.mass > 0.0 and s.thrust > 0.0):
-        return missing(s)
+        return without_solution(s)
     tau = p.exhaust * p.mass / s.thrust
     time = s.time
     if time > MOST_BURNT * tau:
         time = MOST_BURNT * tau
     if not time > SHORTEST:
-        return missing(s)
+        return without_solution(s)
     direction = p.gain / gain
     i = thrust_integrals(p.exhaust * log(tau / (tau - time)), tau, time, p.exhaust)
     square = dot(s.turning, s.turning)
     x = (gain + 0.5 * square * (i.H - i.J * i.K)) / p.exhaust
     if not (x > 0.0 and x < LARGEST_IMPULSE):
-        return missing(s)
+        return without_solution(s)
     burnt = -expm1(-x)
     along = dot(p.way, direction) + 0.5 * square * (i.P - 2.0 * i.Q * i.K + i.S * i.K * i.K)
     divisor = p.exhaust * (burnt - x * exp(-x)) + dot(p.velocity, direction) * burnt
@@ -102,11 +102,11 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
     tau = p.exhaust * p.mass / thrust
     time = tau * burnt
     if not time > SHORTEST:
-        return missing(s)
+        return without_solution(s)
     i = thrust_integrals(p.exhaust * x, tau, time, p.exhaust)
     spread = i.Q - i.S * i.K
     if abs(spread) < SMALLEST_SPREAD * abs(i.S * time):
-        return missing(s)
+        return without_solution(s)
     offset = p.way - time * p.velocity
     return SteeringState(
         time=time,
@@ -118,7 +118,7 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
     )
 
 
-def missing(s: SteeringState) -> SteeringState:
+def without_solution(s: SteeringState) -> SteeringState:
     """Return the state marked as having no solution."""
     return replace(s, change=-1.0)
 

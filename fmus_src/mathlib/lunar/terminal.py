@@ -82,7 +82,7 @@ def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     return first_crossing(c, peak, high, guess)
 
 
-def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
+def keeps_direction(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
     """Return True if a thrust that satisfies |A| T = 2 |B| with ``time`` (s) does not reverse, i.e. A.B > 0."""
     a, b = impulse_and_miss(dr, v, dv, g, time)
     return dot(a, b) > 0.0

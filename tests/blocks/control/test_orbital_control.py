@@ -148,7 +148,7 @@ def test_which_poles_stand_a_delay(seed):
     """Hurwitz's condition, against eigenvalues by numpy."""
     e = np.random.default_rng(seed).normal(size=(3, 3)) + np.eye(3)
     block = OrbitalDerivativeControl()
-    assert block.stands_delay(matrix(*e.tolist())) == bool(np.all(np.linalg.eigvals(e).real > 0.0))
+    assert block.is_stable_with_delay(matrix(*e.tolist())) == bool(np.all(np.linalg.eigvals(e).real > 0.0))
 
 
 def test_derivatives_that_cannot_be_fed_back():

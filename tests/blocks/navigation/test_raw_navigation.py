@@ -45,7 +45,7 @@ def test_an_altitude_moves_the_estimate_along_the_local_vertical():
     before = np.array(block.estimated_position) - CENTRE
     block.altitude_count = 1
     block.measured_altitude = 5e3
-    block.put_in()
+    block.use_samples()
     after = np.array(block.estimated_position) - CENTRE
     assert np.linalg.norm(after) == pytest.approx(MOON_RADIUS + 5e3, abs=1e-8)
     assert np.cross(after, before) / np.linalg.norm(before) ** 2 == pytest.approx(np.zeros(3), abs=1e-12)

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.kernel.matrices import Matrix
-from perilune.fmus_src.mathlib.estimation.kalman import innovation_variance, predict, take_in, update
+from perilune.fmus_src.mathlib.estimation.kalman import innovation_variance, predict, update, update_covariance
 
 
 def random_system(generator, n):
@@ -100,7 +100,7 @@ def test_an_update_in_two_steps_is_the_update(n):
     whole_x, whole_p, nis = update(column(x), before, row(h), 0.3, 2.0)
     s = innovation_variance(before, row(h), 0.3)
     assert s == pytest.approx(h @ p @ h + 0.3)
-    gain, parted_p = take_in(before, row(h), s, 0.3)
+    gain, parted_p = update_covariance(before, row(h), s, 0.3)
     assert before == Matrix(p.tolist())
     assert_close(x + (2.0 - h @ x) * np.ravel(gain), whole_x)
     assert_close(parted_p, whole_p)

@@ -36,7 +36,7 @@ impulse_and_miss = on_sequences(terminal.impulse_and_miss)
 least_effort_time = on_sequences(terminal.least_effort_time)
 linear_thrust = on_sequences(terminal.linear_thrust)
 quadratic_time = on_sequences(terminal.quadratic_time)
-steady = on_sequences(terminal.steady)
+keeps_direction = on_sequences(terminal.keeps_direction)
 arrivals = st.lists(st.integers(-20000, 20000).map(lambda number: number / 1000.0), min_size=3, max_size=3)
 # Starts anywhere around a target at rest, at most as fast as a lunar orbit.
 places = st.lists(st.integers(-20000, 20000).map(float), min_size=3, max_size=3)
@@ -149,7 +149,7 @@ def test_cubic_time_of_any_start_is_the_root_where_the_condition_falls(place, sp
     assert actual == pytest.approx(falling[0] if falling else 0.0, rel=1e-9)
     if actual > 0.0:
         a, b = impulse(dr, v, -v, actual, g)
-        assert steady(place, speed, (-v).tolist(), g, actual) == (a @ b > 0.0)
+        assert keeps_direction(place, speed, (-v).tolist(), g, actual) == (a @ b > 0.0)
 
 
 def test_cubic_time_is_the_root_that_newton_reaches_from_the_quadratic_one_all_over_the_box():

@@ -68,18 +68,18 @@ def kalman_navigation():
     kalman = Filter(position, velocity)
     rows = []
 
-    def take_in(row):
+    def process_scalar(row):
         for name in SENSORS:
             if row in TAKEN_IN[name]:
                 kalman.measure(name, measured[name][row])
 
-    take_in(0)
+    process_scalar(0)
     rows.append(kalman.outputs())
     for row, force in enumerate(mean_forces(increments, new, free)):
         kalman.samples += int(new[row] and row > 0)
         kalman.advance(force, free[row])
         if row > 0:
-            take_in(row)
+            process_scalar(row)
         rows.append(kalman.outputs())
     outputs = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     assert set(outputs["status"]) == {GOOD, REJECTED, LOCKED_OUT}

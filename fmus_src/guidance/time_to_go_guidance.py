@@ -1,7 +1,7 @@
 """Choice of a time to go for every start, shared by two guidance laws."""
 
 from ..block import State
-from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
+from ..mathlib.lunar.terminal import cubic_time, effort_rises, keeps_direction, least_effort_time, linear_thrust
 from ..mathlib.vectors import Vector3
 from .terminal_guidance import TerminalGuidance
 
@@ -12,7 +12,7 @@ ENDING = 5.0
 CHASE = 1.5
 
 
-class CertainTime(TerminalGuidance, interface=True):
+class TimeToGoGuidance(TerminalGuidance, interface=True):
     """Time to go for every start: from |A| T = 2 |B| for braking starts, otherwise of least effort.
 
     With the upward unit vector k, the thrust acceleration a_0 + a_1 t meets position and velocity at the target:
@@ -35,7 +35,7 @@ class CertainTime(TerminalGuidance, interface=True):
     braking = State(False, description="true: time to go from the braking equation |A| T = 2 |B|")
     least_effort = State(False, description="true: time to go of the last command minimises the control effort")
 
-    def forget(self) -> None:
+    def reset_law(self) -> None:
         self.braking = False
         self.least_effort = False
 
@@ -50,7 +50,7 @@ class CertainTime(TerminalGuidance, interface=True):
         if not self.started or self.least_effort or time <= 0.0:
             minimum = least_effort_time(dr, self.velocity, dv, g)
             close = abs(time - minimum) < AGREEMENT * minimum
-            suits = time > 0.0 and steady(dr, self.velocity, dv, g, time)
+            suits = time > 0.0 and keeps_direction(dr, self.velocity, dv, g, time)
             brakes = suits and not effort_rises(dr, self.velocity, dv, g, time)
             if not self.started:
                 self.braking = brakes
