@@ -12,7 +12,7 @@ import numpy as np
 from lxml import etree
 
 from ...common.errors import InputError
-from ...common.machine.room import check_room
+from ...common.machine.table_memory import check_table_memory
 from ...common.visible import limit_lines
 from ..runtime.flight.interruptible import fly
 from ..runtime.fmi.proposals import proposed_step
@@ -194,7 +194,7 @@ def _prepare(
     if options.chosen["step"] is not None:  # before inputs are interpolated or anything is simulated
         start = float(reference.time[0]) if experiment.start is None else experiment.start
         columns = reference.signals.keys() | (series.columns.keys() if series else set())
-        check_room(len(columns), (stop - start) // options.chosen["step"], options.chosen["step"])
+        check_table_memory(len(columns), (stop - start) // options.chosen["step"], options.chosen["step"])
     return prepare_system(archive, options, loaded, series)
 
 

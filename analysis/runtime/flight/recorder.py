@@ -7,7 +7,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from ....common.machine.room import check_room
+from ....common.machine.table_memory import check_table_memory
 from ..loop import codes
 
 OUTCOME_WORDS = codes.INSTRUCTION + 1
@@ -43,7 +43,7 @@ class FlightRecorder:
         Raises ExcessError if memory does not suffice; its message states ``step`` (s).
         """
         if self.times.size < rows:
-            check_room(signals, rows, step)
+            check_table_memory(signals, rows, step)
             self._allocate(signals, rows)
 
     def _allocate(self, signals: int, rows: int) -> None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....common.errors import InputError
-from ....common.machine.room import check_room
+from ....common.machine.table_memory import check_table_memory
 from ...options.fault import Fault
 from ..flight.recorder import FmuActivity, rows_between
 from ..flight.selection import Selection
@@ -74,7 +74,7 @@ class SystemProcess:
         return self._is_ready and self.connection.is_open
 
     def _make_recorder(self, rows: int) -> SharedRecorder:
-        check_room(self._signals, rows, self.prepared.step)
+        check_table_memory(self._signals, rows, self.prepared.step)
         return make_recorder(self._signals, rows)
 
     def _begin(self, selection: Selection, *, formats: bool) -> ChildConnection:

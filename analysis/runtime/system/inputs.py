@@ -13,7 +13,7 @@ from typing import TypedDict
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from ....common.machine.room import check_room
+from ....common.machine.table_memory import check_table_memory
 from ....common.paths import names_fmu
 from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representation
 from ..ssp.kinds import LED_OUT
@@ -224,7 +224,7 @@ def drive_inputs(
 
     Raises ExcessError if free memory does not suffice.
     """
-    check_room(len(driven), steps + 2, step, "inputs")
+    check_table_memory(len(driven), steps + 2, step, "inputs")
     table = np.empty((steps + 2, len(driven)))
     kinds = {name: interpolate if _is_continuous(network, name) else hold for name in driven}
     for place, (name, column) in enumerate(driven.items()):

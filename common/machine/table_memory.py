@@ -9,7 +9,7 @@ from ..bounds import MEMORY_FRACTION, ExcessError
 SMALL = 1e8  # bytes, up to which the free memory is not queried
 
 
-def check_room(columns: int, rows: float, step: float, things: str = "signals") -> None:
+def check_table_memory(columns: int, rows: float, step: float, things: str = "signals") -> None:
     """Raise ExcessError, which names the ``step`` (s), if the free memory is too small for a table of ``rows`` rows.
 
     ``things`` names the columns; one additional column contains the times.
