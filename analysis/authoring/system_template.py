@@ -25,7 +25,11 @@ PARTS = ("plant", "control")  # names of the blocks in the system, in order of d
 
 
 def new_system(name: str) -> CreatedFiles:
-    """Write the folder ``name`` into the working folder, completely or not at all. Raises InputError and OSError."""
+    """Create a new system in the folder ``name`` of the working folder, completely or not at all; return the created
+    files and the next commands.
+
+    Raises InputError and OSError.
+    """
     check_name(name, tuple(f"{name}_{part}" for part in PARTS))
     folder = Path(name)
     check_free(folder)

@@ -89,7 +89,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class KeyNumbers:
-    """Short numbers with their names."""
+    """Key figures at the head of a section or page: short values with their names."""
 
     kind: ClassVar[str] = "numbers"
     entries: Sequence[tuple[str, Cell]]

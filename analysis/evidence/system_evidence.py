@@ -125,6 +125,8 @@ def _experiment(prepared: PreparedSystem) -> bytes:
 
 
 def _is_exact(fmu: Fmu) -> bool:
-    """Return True if an FMU has the same bits on every processor: it is Perilune's and uses no Python libraries."""
+    """Return True if an FMU's results are bit-identical on every processor: it is one of Perilune's and needs no
+    Python libraries.
+    """
     block = catalogue().get(fmu.name)
     return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))

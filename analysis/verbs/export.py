@@ -109,7 +109,9 @@ def _candidates(slot: str, fmus: object) -> list[str]:
     """Return the candidates of a slot from a name, a text with commas, or a list. Raises InputError."""
     several = fmus if isinstance(fmus, list | tuple) else str(fmus).split(",") if isinstance(fmus, str | Path) else ()
     if not several or not all(isinstance(each, str | Path) for each in several):
-        raise InputError("`slots`", slot, f"{fmus!r} is not a list of FMUs", "give names or paths, as a text or a list")
+        raise InputError(
+            "`slots`", slot, f"{fmus!r} is not a list of FMUs", "give names or paths, as a list or with commas"
+        )
     return [os.fspath(each).strip() for each in several]
 
 

@@ -147,7 +147,9 @@ def _home(name: str, path: Path, line: int) -> str:
     if name not in HOME_OF:
         near = difflib.get_close_matches(name, HOME_OF, n=3)
         remedy = f"did you mean {' or '.join(near)}?" if near else f"import from {SOURCE_PACKAGE}"
-        raise ClosureError(f"{path}:{line}: import of {FACE_PACKAGE}.{name}: not packed into the FMU; {remedy}")
+        raise ClosureError(
+            f"{path}:{line}: import of {FACE_PACKAGE}.{name}, which is not packed into the FMU; {remedy}"
+        )
     return HOME_OF[name]
 
 
@@ -157,7 +159,7 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
         if node.level > 1 or not path.with_name(f"{name}.py").is_file():
             written = "." * node.level + (node.module or name)
             remedy = f"import from files next to {path.name}"
-            raise ClosureError(f"{path}:{node.lineno}: import of {written}: not packed into the FMU; {remedy}")
+            raise ClosureError(f"{path}:{node.lineno}: import of {written}, which is not packed into the FMU; {remedy}")
 
 
 @cache  # blocks share most of their files
@@ -180,7 +182,7 @@ def _read_import(text: bytes, module: str, path: Path, allowed: frozenset[str]) 
             for name in names:
                 if name.split(".")[0] not in allowed:
                     raise ClosureError(
-                        f"{path}:{node.lineno}: import of {name}: not packed into the FMU; "
-                        f"import from {FACE_PACKAGE} or a file next to this, or name the library in requires"
+                        f"{path}:{node.lineno}: import of {name}, which is not packed into the FMU; "
+                        f"import from {FACE_PACKAGE} or from a file in the same folder, or list the library in requires"
                     )
     return tuple(modules)

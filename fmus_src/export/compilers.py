@@ -88,7 +88,7 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
 
 
 def compiled_here() -> list[str]:
-    """Return the FMI 2.0 name of this machine's platform if a compiler is available, otherwise an empty tuple."""
+    """Return a list of the FMI 2.0 name of this machine's platform; an empty one without a compiler for it."""
     local = local_platform()
     try:
         return [local] if local is not None and compilers_for(local) else []

@@ -56,7 +56,10 @@ class ConvexGuidance(ZemZevGuidance):
     plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
     since_plan = State(0.0, unit="s", frozen=True, description="time since the last attempt to compute a plan")
     planned_margin = State(
-        1.0, unit="1", frozen=True, description="largest thrust in the next plan, as a fraction of maximum_thrust"
+        1.0,
+        unit="1",
+        frozen=True,
+        description="upper limit of thrust in the next plan, as a fraction of maximum_thrust",
     )
     handed_over = State(False, description="true: ZEM/ZEV guidance has replaced the plan")
 

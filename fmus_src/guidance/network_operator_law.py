@@ -77,7 +77,7 @@ class NetworkOperatorLaw(Block, interface=True):
     edge_count = State(0, description="number of the network operator's edges; -1: matrix is not a network operator")
 
     def decode_law(self) -> None:
-        """Decode the edges of the matrix, once."""
+        """Decode the matrix into edges and edge_count; call once, before `evaluate_law`."""
         self.edge_count = decode(self.matrix, self.edges)
 
     def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:

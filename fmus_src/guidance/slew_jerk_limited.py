@@ -76,7 +76,7 @@ class SlewJerkLimited(SlewGuidance):
         unit="1",
         description="reference attitude quaternion at the end of the slew, from body to inertial, scalar first",
     )
-    stop = State(SlewLeg, description="rotation that brings the start angular velocity to rest")
+    stop = State(SlewLeg, description="rotation that brings the body to rest from its start angular velocity")
     turn = State(SlewLeg, description="rotation from rest to rest")
     spin = State(SlewLeg, description="rotation from rest to the end angular velocity")
 

@@ -74,7 +74,7 @@ def root_between(c: list, low: float, high: float, rising: bool, guess: float) -
 
 
 def first_crossing(c: list, low: float, high: float, guess: float) -> float:
-    """Return the root above ``low`` and up to ``high``, between which the polynomial is monotone; 0 without a root."""
+    """Return the root in (``low``, ``high``], where the polynomial must be monotone, or 0 if there is none."""
     value = evaluate(c, low)
     if value == 0.0:
         return 0.0

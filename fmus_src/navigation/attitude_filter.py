@@ -100,8 +100,8 @@ class AttitudeFilter(Block):
         "planned angular velocity of the robot relative to the inertial frame"
     )
     gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster, computed from its gimbal angles")
-    jet_torque = body.TORQUE.input("torque of the jets since the last communication point")
-    jet_force = body.FORCE.input("force of the jets since the last communication point")
+    jet_torque = body.TORQUE.input("mean torque of the jets since the last communication point")
+    jet_force = body.FORCE.input("mean force of the jets since the last communication point")
     attitude_error = body.ROTATION.output(
         "error of the estimated attitude relative to the plan: rotation axis times sine of the angle", direct=AT_ONCE
     )
@@ -130,7 +130,7 @@ class AttitudeFilter(Block):
     last_time = State(0.0, unit="s", description="time of the last filter step")
     start_time = sampling.START_TIME.state()
     last_momentum = body.ANGULAR_MOMENTUM.state("angular momentum of the gyro cluster at the last filter step")
-    last_force = body.FORCE.state("force of the jets at the last filter step")
+    last_force = body.FORCE.state("mean force of the jets used at the last filter step")
     counted = State(0, description="sample_count of the last sample used")
     mean_time = State(0.0, unit="s", description="time of the last computed mean")
     total = body.ROTATION.state("sum of the measured attitude errors since the last mean")

@@ -89,7 +89,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.turn_ends[0] = end
 
     def propagate_by_gyros(self, q: Vector4) -> Vector4:
-        """Return an attitude of star_time propagated by the gyros, at a constant rate in each sample period."""
+        """Return the attitude ``q`` at star_time, propagated to the present by the gyros at a constant rate in each
+        sample period; ``q`` itself if star_time is negative.
+        """
         if self.star_time < 0.0:
             return q
         for i in range(TURNS):

@@ -20,9 +20,10 @@ class OrbitalSequence(AttitudeObserver):
 
         ψ = (∫ ω_x dt - Δγ)/(ω_0 Δt)
 
-    Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate ω_x is integrated; its
-    difference from the change Δγ of roll over the time Δt gives yaw. From then on yaw is propagated by the motion,
-    pulse by pulse, without correction. The other angles and the rates are the measured ones.
+    Until levelling_end the vehicle levels and brings its rotation to rest. Until averaging_end the measured roll rate
+    ω_x is integrated; its difference from the change Δγ of roll over the time Δt gives yaw. From then on yaw is
+    propagated with the equations of motion, pulse by pulse, without correction. The other angles and the rates are the
+    measured ones.
 
     This conventional procedure is the baseline for the observers. See docs/systems/orbital_attitude.md.
     """

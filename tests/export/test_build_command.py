@@ -65,7 +65,7 @@ WRONG = {
     "import that cannot be packed": (
         HEAD + 'import lxml\nclass A(Block):\n    """A."""\n    y = Output(0.0, unit="1", description="y")\n'
         "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
-        "import of lxml: not packed",
+        "import of lxml, which is not packed",
     ),
     "no step": (
         HEAD + 'class A(Block):\n    """A."""\n    y = Output(0.0, description="y")\n',
@@ -87,7 +87,7 @@ WRONG = {
     "name of perilune that is not packed": (
         HEAD + 'from perilune import simulate\nclass A(Block):\n    """A."""\n    y = Output(0.0, description="y")\n'
         "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
-        "import of perilune.simulate: not packed into the FMU",
+        "import of perilune.simulate, which is not packed into the FMU",
     ),
     "one that cannot be imported where it is packed": (
         "from pathlib import Path\n" + HEAD + 'assert Path(__file__).parent.name != "outside"\n'

@@ -61,7 +61,8 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
         known = stored.of_part(range(first, min(first + part.trials, held.trials)))
         for name in names:
             if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
-                problem = f"{plan.campaign.trials} trials have different samples of {name} in the first {held.trials}"
+                total, same = plan.campaign.trials, held.trials
+                problem = f"with {total} trials the samples of {name} in the first {same} differ from the stored ones"
                 raise InputError(folder / DRAWS, name, problem, "give another `output`")
         first += part.trials
         if first >= held.trials:

@@ -84,7 +84,9 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Ta
 
 
 def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
-    """Return the trials with their samples and the campaign's faults, with columns in the order of files."""
+    """Return the trials with columns added for their samples and the campaign's faults, in the column order of the
+    stored files.
+    """
     table = trials.table
     sampled_columns = {f"draw.{name}": values for name, values in sampled.table.columns.items()}
     for fault in sampled.faults:

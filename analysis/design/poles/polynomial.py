@@ -18,8 +18,13 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     """Return the coefficients (largest degree, r, r) of a matrix polynomial with this spectrum.
 
     Column j has degree ``degrees[j]``; its leading coefficient 1 is not stored. Each diagonal element has separate
-    poles. Conjugate pairs a +- i b that do not fit on the diagonal each use two elements of odd degree: [(s - a) f, -b
-    g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
+    poles. A conjugate pair a ± i b for which the diagonal elements have no room left uses two elements of odd degree,
+    in the block
+
+        [ (s - a) f     -b g    ]
+        [    b f     (s - a) g  ]
+
+    whose determinant is f g ((s - a)^2 + b^2).
     """
     odd = [j for j, degree in enumerate(degrees) if degree % 2]
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))

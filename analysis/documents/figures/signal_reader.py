@@ -142,7 +142,10 @@ class SignalReader(AnnotationReader):
     def find_signal(self, element: etree._Element, attribute: str, name: str) -> Signal:
         """Read one scalar among several named by an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
-            raise self.signal_error(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
+            is_there = name in self.types
+            problem = f"{attribute} {name}: {'not a numeric scalar' if is_there else 'no such scalar'}"
+            numeric = [each for each, kind in self.types.items() if kind in NUMBERS]
+            raise self.signal_error(element, name, problem, suggestion(name, numeric))
         return Signal(self.displayed(name), (name,), self.network.unit_of(name), 1.0, (0.0,))
 
     def scalar(

@@ -135,9 +135,8 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
     reader.attributes(element, (), ("title",))
     declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
     if len(declared) != 1:
-        raise reader.refuse(
-            element, f"{len(declared)} preceding elements Phases", "write one, with the attribute spent"
-        )
+        problem = f"{len(declared)} Phases elements precede it, but it needs exactly one"
+        raise reader.refuse(element, problem, 'write one <Phases spent="..."> before Budget')
     if "spent" not in declared[0].attrib:
         raise reader.refuse(element, "the preceding Phases lacks the attribute spent", 'add spent="..." to Phases')
     phases = [figure for figure in before if isinstance(figure, PhasesFigure) and figure.spent is not None]

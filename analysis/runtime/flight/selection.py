@@ -46,7 +46,10 @@ class Selection:
             check_fault(network, fault)
 
     def keys(self, network: Network) -> dict[str, Key]:
-        """Return (component, variable) of each varied parameter by name. Raises InputError for other names."""
+        """Return (component, variable) of each varied parameter by name.
+
+        Raises InputError for a name that is not a variable parameter or input.
+        """
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> SystemSettings:

@@ -118,7 +118,9 @@ class Simulation(BaseSimulation):
         self._initialise_unfed()
 
     def _initialise_unfed(self) -> None:
-        """Initialise the slots of unconnected array elements and of unchanged values with the current parameters."""
+        """Initialise slots that nothing writes from the current parameters: of unconnected array elements, and of set
+        values of parameters that change during simulation.
+        """
         for key, slot in self.layout.bases.items():
             if key in self.layout.parameters:
                 self.program.initial[slot] = float(self.layout.parameters[key])

@@ -138,7 +138,9 @@ def _check_references(root: etree._Element, variables: list[etree._Element], lab
         elif not (reference or "").strip() or known[int(reference)].get("causality") != "structuralParameter":
             raise InputError(label, _line_of(element), "has neither a start nor a structural parameter", FIX)
         elif known[int(reference)].find("Dimension") is not None:
-            raise InputError(label, _line_of(element), "its structural parameter is an array", FIX)
+            raise InputError(
+                label, _line_of(element), "the structural parameter of its size is an array, not a scalar", FIX
+            )
         else:
             _check_texts(
                 known[int(reference)],

@@ -32,7 +32,7 @@ class ChannelError(OSError):
 
 
 class UnreadableError(Exception):
-    """Bytes from a child that are no valid answer."""
+    """Bytes from a child that do not form a valid answer."""
 
 
 def pack(content: Any) -> bytes:

@@ -56,8 +56,8 @@ def encirclements(
     if abs(count - round(count)) > _NOT_A_COUNT:
         raise ValueError(
             f"between {low:g} and {high:g} rad/s 1 + L turns {count:.3f} times about 0, not a whole number of "
-            f"times, since an open-loop pole is slower than {low:g} rad/s or close to the "
-            "unit circle; start lower, end at the Nyquist frequency and name the poles on the unit circle"
+            f"times, since an open-loop pole is slower than {low:g} rad/s or close to the unit "
+            "circle; start at a lower frequency, end at the Nyquist frequency and name the poles on the unit circle"
         )
     return round(count)
 
@@ -83,15 +83,17 @@ def _poles_at_one(response: Response, difference: Response, low: float, declared
     number = round(-slope) if declared is None else declared
     if abs(slope + number) > _NOT_A_SLOPE or number < 0:
         raise ValueError(
-            f"the gain of 1 + L at {low:g} rad/s has the slope {slope:.2f}, but poles at z = 1 give "
-            f"{'a whole number, at most 0' if declared is None else -declared}; start lower"
+            f"at {low:g} rad/s the log-log slope of |1 + L| is {slope:.2f}, but "
+            f"{'it must be 0 or a negative integer' if declared is None else f'poles at z = 1 require {-declared}'}; "
+            "start at a lower frequency"
         )
     if declared is None and number == 0:
         size = np.asarray(response(pair))
         # the gain of L still rises towards low frequency but is negligible in 1 + L
         if _slope(size if size.ndim == 1 else np.linalg.norm(size, axis=(1, 2))) < -1.0 + _NOT_A_SLOPE:
             raise ValueError(
-                f"the gain of L at {low:g} rad/s is below 1 but still rises towards lower frequencies; start lower"
+                f"the gain of L at {low:g} rad/s is below 1 but still rises towards lower frequencies; "
+                "start at a lower frequency"
             )
     return number
 

@@ -132,7 +132,7 @@ class FailedStudy:
 
     @property
     def text(self) -> str:
-        """Reason, with its verdict."""
+        """Reason, preceded by the verdict unless it is FAIL."""
         if self.verdict is MarginVerdict.FAIL:
             return self.reason
         if self.verdict is MarginVerdict.WITHHELD:

@@ -45,13 +45,13 @@ class JetStrength(Record):
         Vector3,
         unit="1",
         frame="body",
-        description="force along each axis per N of the jets' thrusts, summed with the signs of that axis",
+        description="force along each axis per newton of signed jet thrust (sum with the signs of that axis)",
     )
     torque = Field(
         Vector3,
         unit="m",
         frame="body",
-        description="torque about each axis per N of the jets' thrusts, summed with the signs of that axis",
+        description="torque about each axis per newton of signed jet thrust (sum with the signs of that axis)",
     )
 
 

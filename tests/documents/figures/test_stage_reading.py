@@ -269,7 +269,7 @@ WRONG = {
         f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, but signals has 1; give"
     ),
     "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low = 1 is not below"),
-    "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 preceding elements Phases"),
+    "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 Phases elements precede it"),
 }  # fmt: skip
 OF_PHASES = {
     "a budget of nothing": ("<Budget/>", "Budget", "no Item"),

@@ -67,7 +67,9 @@ def _unit(item: MarginRequirement) -> str:
 
 
 def _words(sizes: Mapping[MarginQuantity, float], sides: Mapping[MarginQuantity, str] | None = None) -> str:
-    """Return margins in words, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
+    """Return margins as text, such as ``gain margin 12.39 dB, phase margin 44.28 deg``; ``sides`` gives a remark to
+    append to each, such as ``(lower)``.
+    """
     words = []
     for quantity, size in sizes.items():
         if size == UNLIMITED:

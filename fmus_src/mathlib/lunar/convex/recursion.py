@@ -33,7 +33,7 @@ GAINS = FACTORS + 28 * INTERVALS
 
 
 def set_end_hessian(c: list, cost: list) -> None:
-    """Set the Hessian ``cost`` (7 x 7) of the last node, without the bounds on the misses."""
+    """Set ``cost`` to the Hessian (7 x 7) of the last node, after elimination of the bounds on the misses."""
     for i in range(49):
         cost[i] = 0.0
     for end in range(2):
