@@ -71,7 +71,7 @@ def test_units_that_differ_are_refused(folders, tmp_path):
     write_sample(tmp_path, text=CAMPAIGN.replace('unit = "kg"', 'unit = "g"'))
     with pytest.raises(perilune.InputError) as caught:
         perilune.plot_results({"one": folders["one"], "grams": tmp_path})
-    assert str(caught.value).startswith("grams: metric propellant: in g, in kg in one;")
+    assert str(caught.value).startswith("grams: metric propellant: its unit is g, but kg in one;")
     assert perilune.plot_results({"one": folders["one"], "grams": tmp_path}, ["miss"]).axes
 
 

@@ -217,7 +217,7 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
         (["--trial", "0"], "--trial: 0: needs a campaign"),
         (["--trials", "3"], "--trials: 3: needs a campaign"),
         (["--seed", "3"], "--seed: 3: needs a campaign"),
-        (["--campaign", "none"], "late_double_integrator.ssp: --campaign: no none in the system"),
+        (["--campaign", "none"], "--campaign: neither the system nor the working folder has a file none"),
         (["--campaign", "CAMPAIGN", "--trial", "6"], f"--trial: 6: the campaign has trials 0 to {TRIALS - 1}"),
         (["--campaign", "CAMPAIGN", "--trial", "-1"], f"--trial: -1: the campaign has trials 0 to {TRIALS - 1}"),
         (["--set", "control.gain=1"], "control.gain"),

@@ -153,7 +153,7 @@ def test_the_flight_software_has_one_sample_period(name, capfd):
     said = capfd.readouterr().err
     for token in (
         "--set",
-        f"{name}: 0.2 is not 0.1",
+        f"{name}: 0.2 differs from 0.1",
         "hover.sample_period, inertial.sample_period",
         "set sample_period",
     ):

@@ -106,7 +106,7 @@ def test_a_page_says_how_to_fly_its_trials_again(odd, tmp_path, capsys):
     [
         ({"half": [0.5]}, "late: the campaign draws this value, but the file has no such column"),
         ({"half": [0.5], "late": [0.5], "hulf": [1.0]}, "hulf: .* neither draws nor derives this value; .*half"),
-        ({"half": [np.nan], "late": [0.5]}, "half: nan in row 0"),
+        ({"half": [np.nan], "late": [0.5]}, "half: row 0 contains nan"),
         ({"half": ["a"], "late": [0.5]}, "half: not a column of numbers"),
         ({"half": [0.5], "late": [0.5], "streams_of": [-1]}, "streams_of: a value is not a trial number"),
         (

@@ -200,7 +200,7 @@ def test_samples_of_signals(tmp_path):
             "plant.heat: neither a signal nor a param",
         ),
         ("", '\n[set]\n"plant.initial_moss" = 1.0\n', "plant.initial_moss: matches no parameter"),
-        ('parameters = ["none.ssv"]', "", "no none.ssv"),
+        ('parameters = ["none.ssv"]', "", "has a file none.ssv"),
         ("trials = 0", "", "0 trial"),
     ],
 )
@@ -242,7 +242,7 @@ def test_options_refused(tmp_path, options, words):
 
 
 def test_unknown_campaign():
-    with pytest.raises(InputError, match=r"campaign: no papper.*paper\.toml.*noisy\.toml"):
+    with pytest.raises(InputError, match=r"campaign: .* has a file papper.*paper\.toml.*noisy\.toml"):
         perilune.batch(SYSTEM, "papper")
 
 

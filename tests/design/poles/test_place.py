@@ -111,7 +111,7 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
             {},
             "modal: poles: 1 poles; give 2 poles, with each repeated pole listed as often as it occurs",
         ),
-        ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j lacks its conjugate; give 0-2j, too"),
+        ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j lacks its conjugate; also give 0-2j"),
         (
             SYSTEM,
             {"method": "akkerman"},

@@ -192,7 +192,7 @@ def test_no_bound(tmp_path, content, words):
         ({"mass": "plant.weight"}, "plant.weight: no such parameter; name a parameter as COMPONENT.VARIABLE"),
         ({"mass": "nobody.mass"}, "nobody.mass: no such parameter"),
         ({"speed": "3"}, "unknown attribute speed"),
-        ({"start": "none.ssv"}, "no none.ssv in the system"),
+        ({"start": "none.ssv"}, "neither the system nor the working folder has a file none.ssv"),
     ],
 )
 def test_wrong_declarations(tmp_path, roles, words):

@@ -25,7 +25,7 @@ def test_stands_alone(page):
     assert_self_contained(page)
     words = text_of(page)
     assert "Sobol' indices of 1 of 3 numbers" in words
-    assert "Same: no indices, -1 in all flights" in words
+    assert "Same: no indices, -1 in all simulations" in words
     assert "3 dispersed parameters: a.gain, b.gain, c.gain" in words
 
 

@@ -77,7 +77,7 @@ def test_arrays_of_two_elements_as_the_fmu_declares_them(tmp_path):
 
 def test_another_size_than_the_fmu_has_is_refused(tmp_path):
     strict_fmu(tmp_path)
-    with pytest.raises(InputError, match=r"one\.gain \(line \d+\): has 3 elements in .*, 2 here"):
+    with pytest.raises(InputError, match=r"one\.gain \(line \d+\): has 3 elements in .*, but 2 here"):
         perilune.simulate(str(pack(tmp_path / "s.ssp", tmp_path, written("2", given_gains()))))
     with pytest.raises(
         InputError,
@@ -136,7 +136,7 @@ def test_an_array_without_dimensions_is_refused(tmp_path):
     strict_fmu(tmp_path)
     path = pack(tmp_path / "s.ssp", tmp_path, document(system(component("one", "strict", "input u Real"))))
     with pytest.raises(
-        InputError, match=r"one\.u \(line \d+\): is an array in .*, a scalar here; give the connector its Dimensions"
+        InputError, match=r"one\.u \(line \d+\): is an array in .*, but a scalar here; give the connector its Dim"
     ):
         perilune.simulate(str(path))
 

@@ -72,8 +72,8 @@ def test_metadata_has_no_effect_and_signatures_are_noted(tiny, tmp_path):
         ('<ssc:Real unit="m"/>', "<ssc:Binary/>", r"ramp\.y \(line \d+\): is Real in .*, Binary here"),
         ('<ssc:Real unit="m"/>', "<ssc:Float32/>", r"ramp\.y \(line \d+\): is Float64 in .*, Float32 here"),
         ('kind="output"', 'kind="unspecified"', r'y \(line \d+\): kind="unspecified" does not state'),
-        ('kind="output"', 'kind="local"', r"ramp\.y \(line \d+\): is output in .*, local here"),
-        ('kind="output"', 'kind="constant"', r"ramp\.y \(line \d+\): is output in .*, constant here"),
+        ('kind="output"', 'kind="local"', r"ramp\.y \(line \d+\): is output in .*, but local here"),
+        ('kind="output"', 'kind="constant"', r"ramp\.y \(line \d+\): is output in .*, but constant here"),
         (
             "<ssd:Component ",
             '<ssd:Component implementation="ScheduledExecution" ',

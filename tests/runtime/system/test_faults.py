@@ -81,7 +81,7 @@ FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
         ("a.b=bias:1@x", "not a number: 'x'"),
         ("a.b=bias:1@1..x", "not a number: 'x'"),
         ("a.b=bias:1@1...2", "not a number: '1...2'"),  # 1. to 2, or 1 to .2?
-        ("a.b=bias:inf@1", "the value inf is not finite; give a number"),
+        ("a.b=bias:inf@1", "the value inf is not finite; give a finite number"),
         ("a.b=bias:nan@1", "the value nan is not finite"),
         ("a.b=bias:1@80..60", "empty window: the end, 60 s, is not after the start, 80 s; give a start before the end"),
         ("a.b=bias:1@60..60", "empty window"),

@@ -102,7 +102,7 @@ def test_a_parameter_with_a_unit_is_converted_on_its_way(array_fmus, tmp_path):
         (
             [component("fixed", "fixed", "constant y Integer")],
             {},
-            r"fixed\.y \(line \d+\): is output in .*, constant here",
+            r"fixed\.y \(line \d+\): is output in .*, but constant here",
         ),
         (
             [COUNTED],

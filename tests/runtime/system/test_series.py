@@ -72,7 +72,7 @@ def test_no_file_and_no_text(tmp_path):
     [
         ({"u": [1.0]}, "input: time: no such column"),
         (np.zeros(3), "input: time: no such column"),
-        ({"time": [0.0, 1.0], "u": [1.0]}, r"column u: its shape is \(1,\), that of time is \(2,\)"),
+        ({"time": [0.0, 1.0], "u": [1.0]}, r"column u: its shape is \(1,\), but the shape of time is \(2,\)"),
         ({"time": [0.0], "u": ["high"]}, "column u: not numbers"),
         ({"time": [0.0, 1.0], "u": [1.0, np.nan]}, "sample 1, column u: nan is not finite"),
         ({"time": [1.0, 0.0], "u": [1.0, 2.0]}, "sample 1, column time: the time falls"),

@@ -85,9 +85,9 @@ def test_by_path_with_connectors_beyond_those_of_the_slot(tiny, path, tmp_path):
         (lambda text: text.replace('name="y"', 'name="z"'), r"gain\.y: .*no variable of this name"),
         (
             lambda text: text.replace('causality="output"', 'causality="local"'),
-            r"gain\.y: .*is local in .*, output here",
+            r"gain\.y: .*is local in .*, but output here",
         ),
-        (lambda text: text.replace('unit="m"', 'unit="1"'), r"gain\.u: .*unit is 1 in .*, m here"),
+        (lambda text: text.replace('unit="m"', 'unit="1"'), r"gain\.u: .*unit is 1 in .*, but m here"),
         (
             lambda text: text.replace('<Real start="0.0" unit="m"/>', '<Integer start="0"/>').replace(
                 'input" variability="continuous"', 'input" variability="discrete"'

@@ -148,5 +148,5 @@ def test_sources_without_effect_cost_no_move():
 
 
 def test_nothing_random_is_refused():
-    with pytest.raises(ValueError, match="0 dimensions, 0 sources"):
+    with pytest.raises(ValueError, match="dimensions = 0 or sources = 0 is out of range"):
         subset_simulation(lambda at: at.draws[:, 0], 0, 0)

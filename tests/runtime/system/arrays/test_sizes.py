@@ -103,5 +103,5 @@ def test_without_a_size_is_refused_in_one_line(array_fmus, tmp_path, root, words
 
 def test_size_and_its_connector_exclude_each_other(array_fmus, tmp_path):
     text = in_version_2(document(system(GAIN))).replace('size="3"', 'size="3" sizeConnector="n"')
-    with pytest.raises(InputError, match=r"u, Dimension \(line \d+\): both size and sizeConnector; remove one"):
+    with pytest.raises(InputError, match=r"u, Dimension \(line \d+\): has both size and sizeConnector; remove one"):
         prepare_system(pack(tmp_path / "s.ssp", array_fmus, text), SystemOptions())

@@ -81,11 +81,11 @@ REFUSED = {
     "start(3)=Float64:4,5 m": r"start \(line \d+\): 2 values for the 3 elements of its dimensions",
     "start(2)=Float64:4,5 m": r"start\[1\] \(line \d+\): 2 elements for the 3 of three\.start; give three\.start\[1\]",
     "start(1,3)=Float64:4,5,6 m": r"start\[1,1\] \(line \d+\): 1 x 3 elements for the 3 of three\.start",
-    "start(n)=Float64:4 m": r"start, Dimension \(line \d+\): no size, which only connectors may omit",
-    "start(?)=Float64:4 m": r"start, Dimension \(line \d+\): no size",
+    "start(n)=Float64:4 m": r"start, Dimension \(line \d+\): has no size, which only connectors may omit",
+    "start(?)=Float64:4 m": r"start, Dimension \(line \d+\): has no size",
     "count(1)=Int32:4": r"count\[1\] \(line \d+\): matches no parameter",
     "start(3)=Boolean:true,true,false": r"start\[1\] .*: the value is of type Boolean, but the variable is of type",
-    "start(3)=Float64:4,5,6 s": r"start\[1\] \(line \d+\): unit s does not fit m",
+    "start(3)=Float64:4,5,6 s": r"start\[1\] \(line \d+\): unit s cannot be converted to m",
 }
 
 
@@ -105,5 +105,5 @@ def test_several_values_need_a_dimension(array_fmus, tmp_path):
 def test_an_attribute_and_elements_of_values_exclude_each_other(tiny, tmp_path):
     text = in_version_2(document(system(component("s", "stranger", "parameter word String", inline("word=String:x")))))
     text = text.replace('<ssv:String value="x"/>', '<ssv:String value="x"><ssv:Value value="y"/></ssv:String>')
-    with pytest.raises(InputError, match=r"word \(line \d+\): both an attribute value and elements Value"):
+    with pytest.raises(InputError, match=r"word \(line \d+\): has both an attribute value and elements Value"):
         fly(pack(tmp_path / "s.ssp", tiny, text))
