@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from threading import Thread
 
@@ -37,17 +37,18 @@ def listen(tell: Tell) -> Iterator[Connection]:
     reader, writer = get_context("loky").Pipe(duplex=False)
 
     def listen() -> None:
-        with reader, suppress(EOFError):
-            while True:
-                tell(*reader.recv())
+        with reader:
+            while (steps := reader.recv()) is not None:
+                tell(*steps)
 
     listener = Thread(target=listen, daemon=True)
     listener.start()
     try:
         yield writer
     finally:
-        writer.close()
+        writer.send(None)  # not the end of the pipe, which a worker that still exists would delay
         listener.join()
+        writer.close()
 
 
 def begin(pipe: Connection) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from loky import ProcessPoolExecutor
 from loky.backend.reduction import dumps
+from loky.backend.utils import kill_process_tree
 
 from ..process import exit_process
 from .ending import end_with_parent
@@ -29,6 +30,9 @@ def process_pool(count: int, begin: Callable[..., object], *arguments: Any) -> I
     try:
         yield pool
     except BaseException:
+        # The pool kills them by a thread, which Ctrl-C can forestall while processes start.
+        for worker in list(pool._processes.values()):
+            kill_process_tree(worker)
         pool.shutdown(kill_workers=True)
         raise
     pool.shutdown()
