@@ -122,7 +122,7 @@ FEW, NEAREST, ALL = (
     4,
     12,
 )  # numbers of names shown: all of up to FEW, otherwise the NEAREST ones, or up to ALL if none is near
-NEAR = 0.6  # least ratio of difflib, which is 1 for equal texts
+LEAST_SIMILARITY = 0.6  # least ratio of difflib, which is 1 for equal texts
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
@@ -137,7 +137,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     ranked = sorted(
         names, key=lambda other: -likeness[other]
     )  # a stable sort, which keeps the order of equally similar names
-    near = [other for other in ranked if likeness[other] >= NEAR][:NEAREST]
+    near = [other for other in ranked if likeness[other] >= LEAST_SIMILARITY][:NEAREST]
     if len(names) <= FEW:
         return f"use one of {', '.join(near + [other for other in names if other not in near])}"
     if near:

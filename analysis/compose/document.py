@@ -9,7 +9,7 @@ from ...common.paths import names_fmu
 from ...fmus_src.units import BASE_UNITS
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.documents import NAMESPACES
-from ..runtime.ssp.experiment import OURS as STEP
+from ..runtime.ssp.experiment import STEP_ANNOTATION
 from ..runtime.system.fmu import Fmu
 from .source import SystemSource
 from .units import collect_units
@@ -130,7 +130,7 @@ def _experiment(source: SystemSource) -> Iterator[str]:
         return
     yield f"{head}>"
     yield "    <ssd:Annotations>"
-    yield f'      <ssc:Annotation type="{STEP}">'
+    yield f'      <ssc:Annotation type="{STEP_ANNOTATION}">'
     yield f'        <CommunicationStep xmlns="https://perilune.org/step" size="{_number(source.step)}"/>'
     yield "      </ssc:Annotation>"
     yield "    </ssd:Annotations>"

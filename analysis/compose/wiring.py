@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
-from ...common.errors import NEAR, InputError, SeveralProblemsError, suggestion
+from ...common.errors import LEAST_SIMILARITY, InputError, SeveralProblemsError, suggestion
 from ..runtime.fmi.variable import ScalarVariable
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.dimensions import array_shapes, text_of
@@ -259,7 +259,7 @@ class _Wirer:
         for component in self.fmus:
             where = self.source.components[component].where
             for name in dict.fromkeys(INDEX.sub("", name) for name in self.open_inputs(component)):
-                similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, NEAR)
+                similar = get_close_matches(name, {output.partition(".")[2] for output in outputs}, 1, LEAST_SIMILARITY)
                 sources = [output for output in outputs if output.partition(".")[2] in similar]
                 nearest = f"connect it ({', '.join(sources)}?)" if sources else "connect it"
                 remedy = f"{nearest}, or list it under unconnected"

@@ -131,7 +131,7 @@ def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
 
     If the linearised and measured responses differ in the other order, nothing passes.
     """
-    note = "" if other is None or not other.doubted else DIFFERENT
+    note = "" if other is None or not other.is_contradicted else DIFFERENT
     judged = replace(loop, requirements=_both(loop, other, note))
     if loop.dispersion is not None:
         spread = None if other is None else other.dispersion

@@ -146,7 +146,7 @@ def test_routes_that_differ_do_not_pass(studied):
     _, report = studied("resonance, control at every 1")
     (loop,) = report.loops
     doubted = replace(loop, agreement=replace(loop.agreement, gain=2.0, agrees=False))
-    assert (doubted.doubted, loop.doubted) == (True, False)
+    assert (doubted.is_contradicted, loop.is_contradicted) == (True, False)
     assert {item.passed for item in doubted.judged} == {item.passed for item in loop.judged}
     passing = replace(loop, requirements=tuple(item for item in loop.requirements if item.passed))
     assert (passing.verdict, replace(report, loops=(passing,)).verdict) == ("pass", "pass")

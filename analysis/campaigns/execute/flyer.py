@@ -22,7 +22,7 @@ from ..trials import TrialTable
 from .evaluation import MetricEvaluator
 from .fusing import Fusing
 
-AROUND = 4096  # number of trials whose draws are read together
+DRAWS_PER_READ = 4096  # number of trials whose draws are read together
 
 
 class TrialResult(NamedTuple):
@@ -88,8 +88,8 @@ class Flyer:
     def values_for(self, trial: int) -> TrialSamples:
         """Return the samples of the block of trials that contains ``trial``."""
         if self._drawn is None or trial not in self._drawn.numbers:
-            first = trial - trial % AROUND
-            self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
+            first = trial - trial % DRAWS_PER_READ
+            self._drawn = self.plan.values_of(range(first, min(first + DRAWS_PER_READ, self.plan.campaign.trials)))
         return self._drawn
 
     def fly_others(self, variant: str, plan: BatchPlan) -> TrialTable:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-NEAR = 1e-2  # m, least depth
+LEAST_DEPTH = 1e-2  # m, least depth
 WIDER = 1.05  # width of the clipping region over the picture's, so that clipped edges are outside the picture
 
 
@@ -55,4 +55,4 @@ def _planes(tangent: float, aspect: float) -> list[tuple[np.ndarray, float]]:
     """Return the planes that bound the visible space: inward normals, and distances from the eye."""
     wide, high = WIDER * aspect * tangent, WIDER * tangent
     sides = ((1.0, 0.0, wide), (-1.0, 0.0, wide), (0.0, 1.0, high), (0.0, -1.0, high))
-    return [(np.array([0.0, 0.0, 1.0]), NEAR), *((np.array(side), 0.0) for side in sides)]
+    return [(np.array([0.0, 0.0, 1.0]), LEAST_DEPTH), *((np.array(side), 0.0) for side in sides)]

@@ -7,7 +7,7 @@ import threading
 
 from . import arrays
 from .library import load_library
-from .structures import Filled
+from .structures import FilledStructure
 
 
 class Loop:
@@ -20,7 +20,7 @@ class Loop:
     def __init__(self, *, self_contained: bool) -> None:
         self._library = load_library()
         self._self_contained = self_contained
-        self._run = Filled("Run")
+        self._run = FilledStructure("Run")
         self.under_way = threading.Lock()
 
     def fly(self, run: arrays.Run) -> int:
@@ -36,7 +36,7 @@ class Loop:
         """Execute a group of runs, each from the start; return the number of executed runs."""
         with self.under_way:
             self._run.fill(run)
-            group = Filled("RunGroup")
+            group = FilledStructure("RunGroup")
             group.fill(flights)
             count: int = self._library.perilune_fly_group(ctypes.byref(self._run.memory), ctypes.byref(group.memory))
             return count

@@ -45,7 +45,7 @@ class Member(NamedTuple):
     is_structure: bool
 
 
-class Filled:
+class FilledStructure:
     """Structure of run.h, with references to its arrays, so that they are not freed."""
 
     def __init__(self, name: str) -> None:

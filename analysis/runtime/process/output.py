@@ -14,7 +14,7 @@ BLOCK = 65536  # bytes read at a time
 LONGEST_LINE = 4096  # bytes
 LINE_LIMIT = 1000  # lines of a child
 NAME_LIMIT, LONGEST_NAMES = 3, 200  # number of components, and of characters
-OURS = ("perilune", "log")  # prefixes of Perilune's own lines, before a colon
+OWN_PREFIXES = ("perilune", "log")  # prefixes of Perilune's own lines, before a colon
 
 
 class PrintedLines:
@@ -96,4 +96,4 @@ def _label(printers: Sequence[str]) -> str:
     names = visible_line(", ".join(printers[:NAME_LIMIT]), LONGEST_NAMES)
     if len(printers) > NAME_LIMIT:
         names += f" and {len(printers) - NAME_LIMIT} more"
-    return f"component {names}" if names.partition(":")[0].strip().casefold() in OURS else names
+    return f"component {names}" if names.partition(":")[0].strip().casefold() in OWN_PREFIXES else names

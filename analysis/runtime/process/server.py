@@ -36,7 +36,7 @@ from .restriction import Restriction, restrict
 
 WATCH_PERIOD = 0.1  # s, between checks of the children's memory
 GRACE = 0.2  # s, time for a child to end after closing its channel
-NEAR = 0.9  # fraction of the memory limit above which a child that fails counts as out of memory
+NEAR_LIMIT = 0.9  # fraction of the memory limit above which a child that fails counts as out of memory
 PR_SET_CHILD_SUBREAPER = 36
 IS_LINUX = sys.platform == "linux"
 RESERVED = 2  # permitted reserved memory per permitted used memory: programs reserve more than they use
@@ -60,7 +60,7 @@ class ServedChild:
             if pid:
                 self.status = status
                 peak = usage.ru_maxrss * (1024 if IS_LINUX else 1)  # bytes
-                if status and not self.reason and peak > NEAR * self.memory:
+                if status and not self.reason and peak > NEAR_LIMIT * self.memory:
                     self.reason = messages.NEAR_MEMORY_LIMIT
         return self.status is not None
 

@@ -10,7 +10,7 @@ from ..system.passing.parameters import numbers
 from .component import FailedError, Sample
 
 
-def carry(network: Network, link: NodeLink, sample_of: Callable[[Node], Sample]) -> Sample:
+def target_sample(network: Network, link: NodeLink, sample_of: Callable[[Node], Sample]) -> Sample:
     """Return the value that a connection, with the links added to it, transfers to its target. Raises FailedError.
 
     ``sample_of`` returns the value of a source.

@@ -10,7 +10,7 @@ from ..system.network import Node, NodeLink
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .component import Sample, Samples
-from .connection import carry
+from .connection import target_sample
 from .exchange import Exchange
 from .faults import Faults
 from .numbers import check_output
@@ -85,7 +85,7 @@ class Signals:
         if name in self._network.driven:
             sample = self._sample(name)
         elif link is not None and not link.is_parameter and self._all_known((link, *link.added), known):
-            sample = carry(self._network, link, self._source)
+            sample = target_sample(self._network, link, self._source)
         else:
             sample = self._starts[name]
         self.values[name] = self._faults.apply(name, sample, self.time)
@@ -104,7 +104,7 @@ class Signals:
         if node.component is not None:
             return self.values[node.name]
         if link is not None and node.kind not in PARAMETERS:
-            return carry(self._network, link, self._source)
+            return target_sample(self._network, link, self._source)
         return self._sample(node.name) if node.name in self._network.driven else self._system.settings.nodes[node.name]
 
     def _sample(self, name: str) -> Sample:

@@ -95,7 +95,7 @@ def feedthrough_of_component(component: etree._Element, file: str) -> bool | Non
 
 PREFIX = "org.perilune."
 KINDS = ("bound", "feedthrough", "frames", "report", "stability", "step")
-OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
+OWN_NAMESPACES = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
 NEARLY = 0.9  # least ratio of difflib
 
 
@@ -104,7 +104,7 @@ def check_annotations(root: etree._Element, file: str) -> None:
     for annotation in root.iter(f"{{{NAMESPACES['ssc']}}}Annotation"):
         kind = annotation.get("type", "")
         place = f"Annotation (line {annotation.sourceline})"
-        if kind in OURS:
+        if kind in OWN_NAMESPACES:
             _check_content(annotation, kind, file)
             owner = annotation.getparent().getparent()
             if kind == FEEDTHROUGH and tag(owner) != "Component":
@@ -114,8 +114,8 @@ def check_annotations(root: etree._Element, file: str) -> None:
                     f"type {kind} is not permitted in a {tag(owner)}",
                     "move the annotation into a Component",
                 )
-        elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
-            raise InputError(file, place, f"no annotation has type {kind}", suggestion(kind, OURS))
+        elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OWN_NAMESPACES, n=1, cutoff=NEARLY):
+            raise InputError(file, place, f"no annotation has type {kind}", suggestion(kind, OWN_NAMESPACES))
 
 
 def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
@@ -123,7 +123,9 @@ def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
         if not isinstance(item.tag, str):
             continue  # a comment
         namespace = etree.QName(item).namespace
-        if namespace != OURS[kind]:
+        if namespace != OWN_NAMESPACES[kind]:
             actual = f"in the namespace {namespace}" if namespace else "without a namespace"
             problem = f"{actual} in an annotation of type {kind}"
-            raise InputError(file, f"{tag(item)} (line {item.sourceline})", problem, f'write xmlns="{OURS[kind]}"')
+            raise InputError(
+                file, f"{tag(item)} (line {item.sourceline})", problem, f'write xmlns="{OWN_NAMESPACES[kind]}"'
+            )

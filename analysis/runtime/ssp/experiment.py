@@ -15,7 +15,7 @@ from lxml import etree
 from ....common.errors import InputError
 from .documents import child, children, tag
 
-OURS = "org.perilune.step"
+STEP_ANNOTATION = "org.perilune.step"
 OMSIMULATOR = "org.openmodelica"
 OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github.ntnu-ihb.vico")  # the last is Vico's
 
@@ -32,7 +32,7 @@ class StepSettings:
 def pace_of_experiment(experiment: etree._Element | None, file: str) -> StepSettings:
     """Return step and algorithm of the default experiment. Raises InputError."""
     for kind, item in _read_annotation(experiment):
-        if kind == OURS and tag(item) == "CommunicationStep":
+        if kind == STEP_ANNOTATION and tag(item) == "CommunicationStep":
             return StepSettings(_seconds(item, ("size",), file))
         if kind in OSP and tag(item) == "FixedStepAlgorithm":
             return StepSettings(_seconds(item, ("baseStepSize", "stepSize"), file), "jacobi")

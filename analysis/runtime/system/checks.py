@@ -21,7 +21,7 @@ from .passing.settings import SystemSettings
 MOST = 6  # most FMUs that an error names
 
 
-def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
+def unsuitable_fmu(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
     """Return the error for an FMU that does not fit its component; ``error`` is the error in the description."""
     fits = list(_iterate_fitting_fmus(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""

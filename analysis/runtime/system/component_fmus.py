@@ -16,7 +16,7 @@ from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.system_description import Component, SystemDescription
 from .arrays.sizes import Sizes, assigned_values
 from .assignments import single_value
-from .checks import missing_fmu, unfit
+from .checks import missing_fmu, unsuitable_fmu
 from .fmu import Fmu, load_fmu
 from .options import SystemOptions
 from .stale import Retired, find_retired
@@ -122,7 +122,7 @@ class ComponentFmus:
         """Replace an error in the connections of a component by a clearer error if an option names its FMU."""
         slot = next((slot for slot in self._used if error.element.startswith(f"{slot}.")), None)
         if slot is not None and error.file == self.description.file:
-            raise unfit(slot, self.options.use[slot], self._used[slot], error) from error
+            raise unsuitable_fmu(slot, self.options.use[slot], self._used[slot], error) from error
 
 
 def _is_missing(name: str, flavour: str | None, system: Path | None) -> bool:

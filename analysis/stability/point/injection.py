@@ -197,7 +197,7 @@ class Injector:
         nothing = np.zeros_like(mine)
         rows = slice(0, None, channel.period)
         u = channel.injection_for(signals) - channel.injection_for(base)
-        v = channel.back(signals, mine) - channel.back(base, nothing)
+        v = channel.return_signal(signals, mine) - channel.return_signal(base, nothing)
         return u[rows], v[rows]
 
     def _overflow(self, error: OverflowedError, base: dict[str, np.ndarray]) -> Exception:

@@ -48,7 +48,7 @@ class Jacobian:
         for channel in bench.channels:
             rows = slice(0, bench.period, channel.period)
             inside.append(channel.injection_for(signals)[rows])
-            back.append(channel.back(signals, added[:, bench.columns(channel)])[rows])
+            back.append(channel.return_signal(signals, added[:, bench.columns(channel)])[rows])
         return np.concatenate([self.memory.read() / self.scale, *inside, *back])
 
     def cell_column(self, cell: int, step: float) -> np.ndarray:

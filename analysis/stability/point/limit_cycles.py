@@ -85,7 +85,7 @@ def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> t
         flight = simulation.fly()
         if flight.status not in COMPLETE or flight.time.size < FEWEST:
             return None
-        values = channel.back(flight.signals, np.zeros((flight.time.size, len(channel.connectors))))
+        values = channel.return_signal(flight.signals, np.zeros((flight.time.size, len(channel.connectors))))
         if integrated:
             half = flight.time.size // 2
             held = np.append(0.0, np.cumsum(values[:-1] * np.diff(flight.time)))

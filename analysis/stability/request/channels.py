@@ -41,8 +41,8 @@ class Channel:
     @property
     def recorded(self) -> tuple[str, ...]:
         """All connectors that are read."""
-        back = () if self.returned is None else (self.returned,)
-        return (*self.connectors, *self.rates, *back)
+        returned = () if self.returned is None else (self.returned,)
+        return (*self.connectors, *self.rates, *returned)
 
     def _towards(self, signals: Signals) -> np.ndarray:
         """Return the effective direction [r, 3], of any length."""
@@ -75,7 +75,7 @@ class Channel:
         towards = self._towards(signals)
         return signals[self.connectors[0]] * towards[:, self.axis] / np.linalg.norm(towards, axis=1)
 
-    def back(self, signals: Signals, excitation: np.ndarray) -> np.ndarray:
+    def return_signal(self, signals: Signals, excitation: np.ndarray) -> np.ndarray:
         """Return the return signal; ``excitation`` [r, connectors] is contained in ``signals``."""
         if self.returned is not None:
             return signals[self.returned]
@@ -120,7 +120,7 @@ def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Ch
     if len(returned) != len(named):
         problem = f"{loop.returned} has {len(returned)} components, but the cut has {len(named)}"
         raise InputError(network.file, where, problem, f"name a signal with {len(named)} components")
-    return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
+    return [replace(channel, returned=source) for channel, source in zip(named, returned, strict=True)]
 
 
 def _period(loop: LoopDeclaration, network: Network, step: float, where: str) -> int:

@@ -64,14 +64,14 @@ class LoopReport:
         return self.requirements + (self.dispersion.requirements if self.dispersion is not None else ())
 
     @property
-    def doubted(self) -> bool:
+    def is_contradicted(self) -> bool:
         """True if linearised and measured response differ; no requirement can then pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property
     def verdict(self) -> MarginVerdict:
         verdict = combine(self.judged)
-        return MarginVerdict.NOT_APPLICABLE if verdict is MarginVerdict.PASS and self.doubted else verdict
+        return MarginVerdict.NOT_APPLICABLE if verdict is MarginVerdict.PASS and self.is_contradicted else verdict
 
 
 @dataclass(frozen=True)
@@ -202,5 +202,5 @@ class StabilityStudy:
         """Overall verdict; loops without a study or with differing responses prevent a pass."""
         requirements = [item.requirement.verdict for item in self.judgements()]
         verdict = combine_verdicts([*requirements, *(lost.verdict for lost in self.unstudied if lost.verdict)])
-        open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
+        open_to_doubt = self.unstudied or any(loop.is_contradicted for loop in self.loops)
         return MarginVerdict.NOT_APPLICABLE if verdict is MarginVerdict.PASS and open_to_doubt else verdict

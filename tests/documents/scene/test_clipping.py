@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from perilune.analysis.documents.scene.clipping import NEAR, WIDER, clip_polygon, visible_stretches
+from perilune.analysis.documents.scene.clipping import LEAST_DEPTH, WIDER, clip_polygon, visible_stretches
 from perilune.analysis.documents.scene.ground import Ground
 
 TANGENT, ASPECT = 0.36, 1.5
@@ -19,7 +19,7 @@ FINE = np.linspace(0.0, 1.0, 4001)[:, None]
 def in_picture(points):
     right, up, depth = points.T
     edge = WIDER * TANGENT * depth
-    return (depth >= NEAR) & (np.abs(right) <= ASPECT * edge) & (np.abs(up) <= edge)
+    return (depth >= LEAST_DEPTH) & (np.abs(right) <= ASPECT * edge) & (np.abs(up) <= edge)
 
 
 def test_stretches_are_as_long_as_what_is_in_the_picture():

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.documents.of.stability.over_time import courses, over_time_chart
+from perilune.analysis.documents.of.stability.over_time import margin_histories, over_time_chart
 from perilune.analysis.stability.loops.margin_values import MarginQuantity
 from perilune.analysis.stability.loops.readings import Crossing
 from tests.support.loops.exact_margins import crossings
@@ -41,7 +41,7 @@ def report(studies):
 
 
 def test_what_is_drawn_is_python_controls(report):
-    same, other = courses(report)
+    same, other = margin_histories(report)
     assert [loops[0].name for loops in same.loops] == ["axis[1]", "axis[2]"]
     assert same.times.tolist() == other.times.tolist() == [10.0, 20.0, 30.0]
     for quantity, place in ((MarginQuantity.GAIN, 0), (MarginQuantity.PHASE, 1)):
@@ -59,9 +59,9 @@ def test_what_is_drawn_is_python_controls(report):
 def test_another_flight_is_no_part_of_the_line(report):
     """A point with other settings, and loops that are studied at one time only."""
     points = (replace(report.points[0], settings={"plant.mass": 2.0}), *report.points[1:])
-    assert all(course.times.tolist() == [10.0, 20.0] for course in courses(replace(report, points=points)))
+    assert all(course.times.tolist() == [10.0, 20.0] for course in margin_histories(replace(report, points=points)))
     same_time = tuple(replace(point, time=5.0) for point in report.points)
-    assert courses(replace(report, points=same_time)) == []
+    assert margin_histories(replace(report, points=same_time)) == []
 
 
 def test_the_page_begins_with_it(report, stability_page, tmp_path):

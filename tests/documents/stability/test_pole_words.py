@@ -11,7 +11,7 @@ import pytest
 
 from perilune.analysis.documents.common.quantities import NONE
 from perilune.analysis.documents.of.stability.parts import modes
-from perilune.analysis.documents.of.stability.study_cells import left_out
+from perilune.analysis.documents.of.stability.study_cells import omission_text
 from perilune.analysis.documents.render.words import cell_text, rich_text
 from perilune.analysis.stability.loops.encirclements import encirclements
 from perilune.analysis.stability.results.responses import Mode
@@ -49,7 +49,7 @@ def test_a_count_that_is_no_whole_number_is_explained(loop):
     ) as caught:
         encirclements(response, 0.05, np.pi)
     uncounted = replace(loop, classical=replace(loop.classical, encirclements=None))
-    words = rich_text(left_out("encirclements", str(caught.value), uncounted))
+    words = rich_text(omission_text("encirclements", str(caught.value), uncounted))
     assert words.startswith("Encirclements of \N{MINUS SIGN}1 are not counted: between 0.05 and 3.14159 rad/s")
     assert "The verdict does not rest on the count: the closed loop is stable by its poles, largest |z| 0." in words
     assert "0 times" not in words

@@ -62,13 +62,13 @@ def test_codes_that_differ_are_refused(monkeypatch):
     "whole", [np.zeros(4), np.zeros(8, dtype=np.int32)[::2]], ids=["another type", "elements apart"]
 )
 def test_an_array_that_c_would_misread_is_refused(whole):
-    settings = structures.Filled("Settings")
+    settings = structures.FilledStructure("Settings")
     with pytest.raises(TypeError, match=r"\.whole: an array of .* where the loop reads int32"):
         settings.fill(Settings(np.zeros(4), whole, np.zeros(4, dtype=np.uint64)))
 
 
 def test_arrays_live_as_long_as_the_structure():
-    settings = structures.Filled("Settings")
+    settings = structures.FilledStructure("Settings")
     settings.fill(Settings(np.arange(4.0), np.zeros(4, dtype=np.int32), np.zeros(4, dtype=np.uint64)))
     real = np.ctypeslib.as_array((np.ctypeslib.ctypes.c_double * 4).from_address(settings.memory.real))
     assert real.tolist() == [0.0, 1.0, 2.0, 3.0]

@@ -36,7 +36,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
             raise InputError(option, str(value), problem, f"omit {option} or {OPTION}")
     distributed = _import_distributed()
     with _quiet(), _client(distributed, address) as client:
-        _look_at_workers(client, address)
+        _check_workers(client, address)
         yield Cluster(client, address)
 
 
@@ -77,7 +77,7 @@ def _client(distributed: Any, address: str) -> Iterator[Any]:
             yield client
 
 
-def _look_at_workers(client: Any, address: str) -> None:
+def _check_workers(client: Any, address: str) -> None:
     """Reject a cluster without workers, or with a worker that has another version of Perilune. Raises InputError."""
     try:
         client.wait_for_workers(1, timeout=FIRST_WORKER)

@@ -140,14 +140,14 @@ class ShardTasks:
         self._repeated.add(task)
         left = [] if self._portions.trials else self._repeated.single_trials_left(self.under_way.values())
         if left:
-            raise WorkersDiedError(_what_ends_them(left)) from error
+            raise WorkersDiedError(_describe_worker_deaths(left)) from error
 
 
 def _itself(sent: Any) -> Any:
     return sent
 
 
-def _what_ends_them(tasks: Sequence[Task]) -> str:
+def _describe_worker_deaths(tasks: Sequence[Task]) -> str:
     """Return a description of tasks, each of a single trial, whose workers die repeatedly."""
     names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""

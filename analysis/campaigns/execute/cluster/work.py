@@ -28,7 +28,7 @@ _looking = threading.Lock()
 _loaded: dict[str, _LoadedCampaign] = {}  # by key, most recently used last
 
 
-class HaltedError(RuntimeError):
+class TaskHaltedError(RuntimeError):
     """Termination of simulations requested by the process that runs the campaign."""
 
 
@@ -59,7 +59,7 @@ def fly(sent: Sent, task: Sequence[TrialSpan]) -> list[tuple[TrialTable, float]]
             try:
                 trials = flyer.fly(piece.variant, piece.trials)
             except KeyboardInterrupt:  # it would end the worker
-                raise HaltedError(sent.key) from None
+                raise TaskHaltedError(sent.key) from None
             simulated.append((trials, time.perf_counter() - began))
     return simulated
 

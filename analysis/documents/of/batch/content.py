@@ -56,7 +56,7 @@ class BatchContent:
         )
 
     @cached_property
-    def judged(self) -> Sequence[Metric]:
+    def judged_metrics(self) -> Sequence[Metric]:
         """The metrics of success and requirements, or all metrics that vary if there are none."""
         return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
 

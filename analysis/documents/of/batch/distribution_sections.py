@@ -27,9 +27,9 @@ def distribution_section(content: BatchContent) -> Section:
             for variant, text in samples.items()
         ),
     ]
-    if content.judged:
+    if content.judged_metrics:
         nodes += [
-            distribution_figures(content, content.judged),
+            distribution_figures(content, content.judged_metrics),
             distribution_note(of_successes=False),
         ]
     nodes.append(ForScript("", "curves", None, [Note(each) for each in trials_notes(batch)], "screen answers"))
@@ -41,7 +41,7 @@ def distribution_section(content: BatchContent) -> Section:
 def other_distribution_sections(content: BatchContent) -> list[Section]:
     """Return the section on all other metrics: distributions, constant metrics, and metrics without a finite value."""
     varying, constant, empty = content.sorted_metrics
-    others = [metric for metric in varying if metric not in content.judged]
+    others = [metric for metric in varying if metric not in content.judged_metrics]
     nodes: list[Node] = [
         *([distribution_figures(content, others)] if others else []),
         *(

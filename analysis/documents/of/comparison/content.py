@@ -101,7 +101,7 @@ class ComparisonContent:
         return int(self.comparison.contenders[label].trials.trial[row]), float(values[row])
 
     @cached_property
-    def judged(self) -> list[Metric]:
+    def judged_metrics(self) -> list[Metric]:
         """The metrics of success and requirements, or all metrics that vary if there are none."""
         return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
 

@@ -26,15 +26,15 @@ from .variant_distributions import metric_figures, overlaid_figures
 def distribution_section(content: ComparisonContent) -> Section:
     """Return the section of distributions of the metrics of success and requirements."""
     nodes = missing_nodes(content, "propellant")
-    if content.judged:
-        nodes += [_distributions(content, content.judged), distribution_note(of_successes=True)]
+    if content.judged_metrics:
+        nodes += [_distributions(content, content.judged_metrics), distribution_note(of_successes=True)]
     return Section("Distributions", nodes)
 
 
 def other_distribution_section(content: ComparisonContent) -> list[Section]:
     """Return the section on other metrics: distributions, constant metrics, and metrics without a finite value."""
     varying, constant, empty = content.sorted_metrics
-    others = [metric for metric in varying if metric not in content.judged]
+    others = [metric for metric in varying if metric not in content.judged_metrics]
     nodes: list[Node] = [
         *([_distributions(content, others)] if others else []),
         *(

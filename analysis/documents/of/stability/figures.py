@@ -26,12 +26,12 @@ from .charts.frequency import LimitLines, margin_words, sensitivity_chart
 from .charts.nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
 from .charts.poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
 from .charts.sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
-from .shared import ByPart
+from .shared import FiguresBySection
 
 HEIGHT = 3.0  # in; two axes above each other, and squares, need more height than panels of other pages
-SIGHT_HEIGHT = 3.5  # in, height of the first figures, two side by side
+OVERVIEW_HEIGHT = 3.5  # in, height of the first figures, two side by side
 LOW = 2.4  # in, height of histograms, sensitivities and joint margins
-SIGHT = "sight"  # key of the first figures
+OVERVIEW = "overview"  # key of the first figures
 
 
 def _small(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:
@@ -65,8 +65,8 @@ def overview_figures(loop: LoopReport, name: str) -> list[Figure]:
     """Return the first figures of a loop: Bode and Nichols diagram with margins and limits."""
     nichols = f"Nichols diagram of {loop.name}: {margin_words(loop)}"
     return [
-        bode_figure(loop, "Bode", f"{name}-bode", SIGHT_HEIGHT),
-        Figure("Nichols", f"{name}-nichols", nichols, nichols_chart(loop), SIGHT_HEIGHT),
+        bode_figure(loop, "Bode", f"{name}-bode", OVERVIEW_HEIGHT),
+        Figure("Nichols", f"{name}-nichols", nichols, nichols_chart(loop), OVERVIEW_HEIGHT),
     ]
 
 
@@ -97,10 +97,10 @@ def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
     return figures
 
 
-def figures_by_part(loop: LoopReport, name: str) -> ByPart:
+def figures_by_section(loop: LoopReport, name: str) -> FiguresBySection:
     """Return all figures of a loop by section of its article; figures of no section have an empty key."""
     return {
-        SIGHT: overview_figures(loop, name),
+        OVERVIEW: overview_figures(loop, name),
         "": loop_figures(loop, name),
         "robust": [sensitivity_figure(loop, name)],
         "dispersed": dispersion_figures(loop, name),

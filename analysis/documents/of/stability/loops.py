@@ -10,12 +10,12 @@ from ...cell import Faint
 from ...common.quantities import MINUS, display_unit
 from ...model import Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
 from ...pictures import Figure, Figures
-from .figures import SIGHT, figures_by_part
+from .figures import OVERVIEW, figures_by_section
 from .margins import loop_table
 from .paper import Paper, paper_of
 from .parts import Part, list_absent, parts
 from .shared import TOLERANCE, SharedFigures, share_figures
-from .study_cells import anchor, fold_long, left_out, link, numeral, verdict
+from .study_cells import anchor, fold_long, link, numeral, omission_text, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the first figures
 HOW_TO_READ = (
@@ -46,7 +46,7 @@ HOW_TO_READ = (
 
 def loop_nodes(report: StabilityStudy) -> list[Node]:
     """Return the definition of L, explanations of figures and tables, and all loops."""
-    figures = [figures_by_part(loop, anchor(index)) for index, loop in enumerate(report.loops)]
+    figures = [figures_by_section(loop, anchor(index)) for index, loop in enumerate(report.loops)]
     shared = share_figures(report.loops, figures)
     paper = paper_of(shared)
     return [
@@ -75,8 +75,8 @@ def _article(report: StabilityStudy, index: int, shared: SharedFigures, paper: P
         Note([f"Loop {loop.loop}, sample period ", numeral(loop.sample_period), " s"]),
         loop_table(loop),
         Items([[Faint(name), f" {value}"] for name, value in _cut(loop)], "inline"),
-        *(Missing(left_out(part, reason, loop)) for part, reason in loop.not_applicable.items()),
-        *_figures(figures[SIGHT]),
+        *(Missing(omission_text(part, reason, loop)) for part, reason in loop.not_applicable.items()),
+        *_figures(figures[OVERVIEW]),
         *_elsewhere(report, shared, at_sight=True),
         Fold(f"Plots and details: {loop.name}", details, is_printed=True),
     ]

@@ -69,7 +69,7 @@ def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
     )
 
 
-def courses(report: StabilityStudy) -> list[MarginHistory]:
+def margin_histories(report: StabilityStudy) -> list[MarginHistory]:
     """Return the loops studied at several times with the same settings."""
     points = {point.name: point for point in report.points}
     flights: dict[tuple[str, str], list[LoopReport]] = {}

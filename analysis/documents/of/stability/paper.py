@@ -10,7 +10,7 @@ from .shared import SharedFigures
 
 FEW = 3  # largest number of loops with separate figures for which everything is printed
 MOST = 40  # largest number of printed figures for more loops
-TIERS = (  # kinds of figures by importance: first figures, sensitivities next to tables, figures in a row
+KINDS_BY_IMPORTANCE = (  # kinds of figures by importance: first figures, sensitivities next to tables, figures in a row
     ("Bode", "Nichols"),
     ("Sensitivities",),
     ("Nyquist", "Poles", "Poles near z = 1", "Step response"),
@@ -63,7 +63,7 @@ def paper_of(shared: Sequence[SharedFigures]) -> Paper:
         return Paper(None)
     labels = [kind_of(figure) for one in shared for figures in one.figures.values() for figure in figures]
     kinds: list[str] = []
-    for tier in TIERS:
+    for tier in KINDS_BY_IMPORTANCE:
         if kinds and sum(labels.count(kind) for kind in (*kinds, *tier)) > MOST:
             break
         kinds += tier

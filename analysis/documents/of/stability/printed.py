@@ -40,7 +40,7 @@ def stability_problems(report: StabilityStudy) -> list[str]:
     withheld = [item for item in judged if item.requirement.verdict is MarginVerdict.WITHHELD]
     lines += [withheld_line(report, subject, requirement) for subject, requirement in withheld]
     for loop in report.loops:
-        if loop.doubted and loop.verdict is MarginVerdict.NOT_APPLICABLE:
+        if loop.is_contradicted and loop.verdict is MarginVerdict.NOT_APPLICABLE:
             why = f"linearised and measured responses differ, {loop.not_applicable['agreement']}"
             lines.append(f"loop {loop.name} at {loop.point}: not passed: {why}")
     lines += [f"{lost.what} {lost.name} at {lost.point}: {lost.text}" for lost in report.unstudied]

@@ -24,7 +24,7 @@ COORDINATES = (
     "ends",
     "ticks",
 )  # fields that are not compared; of x and y only the shape is
-ByPart = dict[str, list[Figure]]  # figures by section of a loop's article
+FiguresBySection = dict[str, list[Figure]]  # figures by section of a loop's article
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,12 @@ class FigureContent:
 class SharedFigures:
     """The figures shown with a loop, and labels of figures shown with another loop, by the index of that loop."""
 
-    figures: ByPart
+    figures: FiguresBySection
     labels_by_loop: dict[int, list[str]]
 
 
 @dataclass
-class _Distinct:
+class _DistinctFigure:
     figure: Figure
     picture: FigureContent
     loops: list[int]
@@ -110,10 +110,10 @@ def are_indistinguishable(one: FigureContent, other: FigureContent) -> bool:
     return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)
 
 
-def share_figures(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[SharedFigures]:
+def share_figures(loops: Sequence[LoopReport], figures: Sequence[FiguresBySection]) -> list[SharedFigures]:
     """Return the figures to show with each loop: each figure of the loops with the first loop that has it."""
-    distinct: dict[str, list[_Distinct]] = {}
-    retained: list[dict[str, list[_Distinct]]] = []
+    distinct: dict[str, list[_DistinctFigure]] = {}
+    retained: list[dict[str, list[_DistinctFigure]]] = []
     elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
     for index, parts in enumerate(figures):
         retained.append({key: [] for key in parts})
@@ -124,7 +124,7 @@ def share_figures(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> lis
                     (one for one in distinct.get(figure.label, []) if are_indistinguishable(one.picture, picture)), None
                 )
                 if same is None:
-                    one = _Distinct(figure, picture, [index])
+                    one = _DistinctFigure(figure, picture, [index])
                     distinct.setdefault(figure.label, []).append(one)
                     retained[-1][key].append(one)
                 elif same.loops[0] != index:
@@ -136,7 +136,7 @@ def share_figures(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> lis
     ]
 
 
-def _titled(one: _Distinct, loops: Sequence[LoopReport]) -> Figure:
+def _titled(one: _DistinctFigure, loops: Sequence[LoopReport]) -> Figure:
     """Return a figure whose label names its loops if there are several."""
     if len(one.loops) == 1:
         return one.figure

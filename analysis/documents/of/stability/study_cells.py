@@ -111,7 +111,7 @@ def complex_number(value: complex, digits: int = 4) -> Inline:
     return DisplayedNumber(displayed, value)
 
 
-def left_out(part: str, reason: str, loop: LoopReport) -> Rich:
+def omission_text(part: str, reason: str, loop: LoopReport) -> Rich:
     """Return why a part of a loop's study is missing; without a count of encirclements also how stability is judged."""
     if part != "encirclements" or loop.classical.encirclements is not None:
         return f"{part} is not applicable: {reason}"

@@ -15,7 +15,7 @@ from .figures import SIZE, bode_figure, joint_figure
 from .loops import loop_nodes
 from .margins import joint_table, order_table, summary_table, verdict_table
 from .orders import order_sentences
-from .over_time import courses, over_time_nodes
+from .over_time import margin_histories, over_time_nodes
 from .points import point_nodes
 from .printed import stability_lines
 from .study_cells import fold_long, gain_margin, phase_margin, size, verdict
@@ -34,7 +34,7 @@ def stability_document(report: StabilityStudy, command: str = "") -> Document:
         Only(Medium.NOTEBOOK, partial(_notebook_nodes, report)),
         Only(Medium.PAGE, lambda: [_verdict(report), *([Repeat(command)] if command else [])]),
     ]
-    histories = courses(report)
+    histories = margin_histories(report)
     sections = [
         ("Margins over the time of flight", partial(over_time_nodes, histories, report), bool(histories)),
         ("Verdict", partial(_requirement_nodes, report), True),

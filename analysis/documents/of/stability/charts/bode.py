@@ -25,17 +25,17 @@ from .frequency import (
     frequency_axis,
     gain_mark,
     gain_words,
-    has_measurement,
     in_db,
     limits_of,
     margin_crossings,
+    measured_curve,
     nearest_phase,
     phase_mark,
     phase_of,
     phase_words,
 )
 
-FAR, NEAR = 60.0, 80.0  # dB below and above 1 beyond which a gain is irrelevant to margins
+LOWEST_GAIN, HIGHEST_GAIN = 60.0, 80.0  # dB below and above 1 beyond which a gain is irrelevant to margins
 REACH = 0.07  # half-length of a limit's line, over the length of the frequency axis
 ROOM = 0.085  # width of a label over the length of the frequency axis
 GAINS = (1.0, 2.0, 4.0, 5.0, 10.0)  # dB, steps between ticks, times a power of ten
@@ -63,7 +63,7 @@ def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
         dashed, note = _requirement(abscissa, gain.frequency, height, words, to_right=gain.value >= 1.0)
         curves.append(dashed)
         notes.append(note)
-    measured = has_measurement(loop)
+    measured = measured_curve(loop)
     if measured is not None:
         curves.append(marks(measured.frequency, in_db(measured.value), MEASURED))
     if gain is not None:
@@ -98,7 +98,7 @@ def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
             curves.append(dashed)
             notes.append(note)
             plotted.append(np.array([height]))
-    measured = has_measurement(loop)
+    measured = measured_curve(loop)
     if measured is not None:
         around = nearest_phase(curve, degrees, measured)
         curves.append(marks(measured.frequency, around, MEASURED))
@@ -153,6 +153,6 @@ def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_
 
 def _gain_ends(gain: np.ndarray, marked: float) -> tuple[float, float]:
     """Return the ends of the gain axis (dB): the full range, unless a zero or a pole would compress other gains."""
-    low, high = float(np.min(gain)), max(min(float(np.max(gain)), NEAR), marked, 0.0)
-    low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
+    low, high = float(np.min(gain)), max(min(float(np.max(gain)), HIGHEST_GAIN), marked, 0.0)
+    low = max(min(low, marked, 0.0), min(-LOWEST_GAIN, marked - 0.5 * LOWEST_GAIN))
     return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0

@@ -71,7 +71,7 @@ def phase_mark(*, is_decisive: bool) -> Marker:
     return marker("s", DECISIVE, VERMILION) if is_decisive else marker("s", MARK, VERMILION, fill=WHITE)
 
 
-def has_measurement(loop: LoopReport) -> FrequencyResponse | None:
+def measured_curve(loop: LoopReport) -> FrequencyResponse | None:
     """Return the measured response if the loop's curve is from a linearisation; else None."""
     if loop.linearised is None or loop.measured_response is None:
         return None

@@ -29,10 +29,10 @@ from .frequency import (
     LimitLines,
     faint_line,
     gain_mark,
-    has_measurement,
     in_db,
     limits_of,
     margin_crossings,
+    measured_curve,
     phase_mark,
 )
 
@@ -59,7 +59,7 @@ def nyquist_chart(loop: LoopReport) -> Chart:
         curves.append(_circle(loop.robust.modulus_margin, GREEN, 1.2))
     if limits.modulus is not None:
         curves.append(_circle(limits.modulus, VERMILION, 1.0, REQUIRED))
-    measured = has_measurement(loop)
+    measured = measured_curve(loop)
     if measured is not None:
         curves.append(marks(measured.value.real, measured.value.imag, MEASURED))
     for crossing in crossings.gain:
@@ -131,7 +131,7 @@ def nichols_chart(loop: LoopReport) -> Chart:
         oval = -1.0 + limits.modulus * np.exp(1j * ANGLES)
         curves.append(line(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), VERMILION, width=1.0, dashes=REQUIRED))
     curves.append(line(*_wrap_phase(loop.curve.value), BLUE))
-    measured = has_measurement(loop)
+    measured = measured_curve(loop)
     if measured is not None:
         phase = np.degrees(np.angle(-measured.value)) - 180.0
         curves.append(marks(phase, in_db(measured.value), MEASURED))

@@ -17,7 +17,7 @@ from .frequency import WHITE, faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)
 KINDS = {"loop": "x", "not controllable": "v", "not observable": "^", "neither": "s"}
-NEAR = 0.3  # distance from z = 1 within which slow loops have their poles
+SLOW_DISTANCE = 0.3  # distance from z = 1 within which slow loops have their poles
 MOST = 2500  # largest number of points of a cloud; larger clouds are thinned to a grid
 SHAPE, LOW_SHAPE = 1.2, 1.6  # approximate aspect ratios of the panels' axes
 NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # positions of labels of damping, in half turns
@@ -32,7 +32,7 @@ def poles_of(loop: LoopReport) -> np.ndarray:
 
 def are_crowded(poles: np.ndarray) -> bool:
     """Return True if poles near z = 1 are too close to be distinguished on a map of the unit circle."""
-    return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
+    return bool(np.sum(np.abs(poles - 1.0) < SLOW_DISTANCE) >= 2)
 
 
 def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
@@ -64,7 +64,7 @@ def cloud_chart(loop: LoopReport) -> Chart:
     nominal = poles_of(loop)
     near = are_crowded(nominal if nominal.size else poles)
     if near:
-        centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * NEAR, LOW_SHAPE)
+        centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * SLOW_DISTANCE, LOW_SHAPE)
     else:
         centre, half = 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles)))))
     displayed = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
@@ -135,7 +135,7 @@ def intervals(width: float) -> int:
     return max(2, min(5, 30 // (decimals + 2)))
 
 
-def _near_one(poles: np.ndarray, near: float = NEAR, shape: float = SHAPE) -> tuple[float, float]:
+def _near_one(poles: np.ndarray, near: float = SLOW_DISTANCE, shape: float = SHAPE) -> tuple[float, float]:
     """Return centre and half the height of a frame around the poles near z = 1 with some margin."""
     close = poles[np.abs(poles - 1.0) < near]
     reach = max(float(np.max(np.abs(close - 1.0))), 1e-6)
