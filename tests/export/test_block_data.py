@@ -156,7 +156,7 @@ REFUSED = {
     "no module": (("from .helper", "from .helpers"), "ModuleNotFoundError: no helpers.py next to it"),
     "above it": (
         ("from .helper import", "if False:\n    from ..helper import"),
-        "my_table.py:5: import of ..helper: not",
+        "my_table.py:5: import of ..helper, which is not",
     ),
 }
 
